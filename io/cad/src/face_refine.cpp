@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "papilla/core/bounds.hpp"
+
 namespace papilla::cad {
 namespace {
 
@@ -489,7 +491,16 @@ PatchDeviation measure_patch(const FacePatch& patch, const FaceSurface& surface,
 }
 
 std::size_t refine_patch(FacePatch& patch, const FaceSurface& surface, const RefineLimits& limits) {
-  return Refiner(patch, surface, limits).run();
+  // What the limits may take of a face that is as large as its box, several times over. A chord as coarse as the face
+  // leaves boundaries from which no split leads to the surface: those would go on for ever.
+  constexpr double k_times = 16;
+  Bounds<Vec3> box;
+  for (const PatchNode& node : patch.nodes) box.add(node.position), box.add(node.position - node.gap);
+  const double cells = box.diagonal() / std::min(limits.min_edge, limits.max_edge);
+  RefineLimits bounded = limits;
+  const double most = static_cast<double>(patch.triangles.size()) + k_times * cells * cells;
+  if (most < static_cast<double>(limits.max_triangles)) bounded.max_triangles = static_cast<std::size_t>(most);
+  return Refiner(patch, surface, bounded).run();
 }
 
 }  // namespace papilla::cad

@@ -353,6 +353,17 @@ TEST(RealCadFiles, AreClosedCompleteAndExact) {
   }
 }
 
+/// A chord as coarse as the part takes few triangles, and an end.
+TEST(RealCadFiles, AChordAsCoarseAsThePartTakesFewTriangles) {
+  for (const double chord : {20.0, 50.0, 500.0}) {
+    CadReport report;
+    const Scene scene =
+        read_cad(std::filesystem::path(PAPILLA_EXCHANGE_FILES) / "handle.step", options(chord, 20), &report);
+    EXPECT_LT(scene.parts.at(0).mesh.triangles.size(), 10000u) << chord;
+    EXPECT_LE(report.max_deviation_mm, chord) << chord;
+  }
+}
+
 /// One solid, as other programs write it in different formats.
 TEST(RealCadFiles, HoldTheSameSolidInEveryFormat) {
   const std::filesystem::path ours = PAPILLA_EXCHANGE_FILES;
