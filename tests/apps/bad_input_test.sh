@@ -58,7 +58,7 @@ expect 2 '' "$papilla" bake
 expect 2 '' "$papilla" frobnicate
 expect 2 "unknown option '--no-such-option'" "$papilla" inspect --no-such-option=red one.obj
 expect 2 "unexpected word 'b=c.stl'" "$papilla" inspect one.obj b=c.stl
-expect 2 '^--materials is required' "$papilla" bake -o out.glb -- one.obj
+expect 2 '^papilla: error: --materials is required' "$papilla" bake -o out.glb -- one.obj
 expect 2 'tolerance' "$papilla" simplify one.obj --tolerance nan -o out.obj
 for file in missing.glb empty.glb random.glb one.obj; do
   expect 3 "$file" "$player" "$file" --device sim --seconds 0.1
