@@ -90,8 +90,11 @@ TEST(LiveLooks, GivesWhatChangedAndTellsOfMistakes) {
   EXPECT_EQ(news(), "event: looks\ndata: {\"page\":1,\"version\":1,\"problem\":\"\"}\n\n");
   EXPECT_EQ(news(), "");
   EXPECT_TRUE(looks_since(routes, 1).first["materials"].empty());
+  EXPECT_TRUE(live.is_taken()) << "it came with the page";
   live.update(looks_of(a, look(50)));
+  EXPECT_FALSE(live.is_taken());
   const auto [json, pixels] = looks_since(routes, 1);
+  EXPECT_TRUE(live.is_taken());
   EXPECT_EQ(json["version"], 2);
   ASSERT_EQ(json["materials"].size(), 1U) << "the first is the same object";
   EXPECT_EQ(json["materials"][0]["material"], 2);

@@ -43,6 +43,7 @@ void LiveLooks::show(const std::function<std::string(std::uint64_t, std::uint64_
   page_ = text, pages_ = page;
   looks_.clear();
   take(looks);
+  taken_ = version_;
 }
 
 void LiveLooks::update(const WeatherLooks& looks) {
@@ -63,6 +64,11 @@ void LiveLooks::take(const WeatherLooks& looks) {
       looks_[m].pictures[k] = same ? before.pictures[k] : version_;
     }
   }
+}
+
+bool LiveLooks::is_taken() const {
+  const std::scoped_lock lock(mutex_);
+  return taken_ == version_;
 }
 
 void LiveLooks::tell(const std::string& problem) {
@@ -93,12 +99,13 @@ std::string LiveLooks::event(std::uint64_t& seen) const {
   return "event: looks\ndata: " + data.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n\n";
 }
 
-SharedText LiveLooks::changed_since(std::uint64_t version) const {
+SharedText LiveLooks::changed_since(std::uint64_t version) {
   std::vector<std::pair<std::size_t, Look>> changed;
   Json json;
   {
     const std::scoped_lock lock(mutex_);
     json = {{"page", pages_}, {"version", version_}};
+    taken_ = version_;
     for (std::size_t m = 0; m < looks_.size(); ++m)
       if (looks_[m].look && looks_[m].version > version) changed.emplace_back(m, looks_[m]);
   }

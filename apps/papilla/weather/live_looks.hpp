@@ -31,6 +31,9 @@ class LiveLooks {
   /// New looks of the scene that the page shows; a mistake is mended. @pre the layout is that of the looks before.
   void update(const WeatherLooks& looks);
 
+  /// Whether a page has what is new. Others would take the processor from the page that still draws.
+  bool is_taken() const;
+
   /// Why there are no newer looks; empty: nothing is wrong.
   void tell(const std::string& problem);
 
@@ -45,11 +48,11 @@ class LiveLooks {
   };
   void take(const WeatherLooks& looks);
   std::string event(std::uint64_t& seen) const;
-  SharedText changed_since(std::uint64_t version) const;
+  SharedText changed_since(std::uint64_t version);
 
   mutable std::mutex mutex_;
   SharedText page_;
-  std::uint64_t pages_ = 0, version_ = 0, events_ = 0;
+  std::uint64_t pages_ = 0, version_ = 0, taken_ = 0, events_ = 0;
   std::vector<Look> looks_;
   std::string problem_;
 };

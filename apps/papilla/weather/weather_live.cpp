@@ -25,10 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds k_look{20};
+constexpr std::chrono::milliseconds k_look{10};
 constexpr std::chrono::milliseconds k_half_written{50};  ///< In which a file that is being saved is whole.
 constexpr double k_rest_s = 1;                           ///< Without an edit, until files are built.
 constexpr double k_uninterrupted_s = 0.5;                ///< What takes no longer is finished.
+constexpr double k_longest_wait_s = 0.5;                 ///< For a page to take what is new, if there is one.
 
 std::atomic<bool> g_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
@@ -46,7 +47,7 @@ class Follower {
   void run() {
     Stopwatch rest;
     while (!g_stop && !context_.deadline.passed()) {
-      if (edited()) {
+      if (edited() && (looks_.is_taken() || rest.seconds() > k_longest_wait_s)) {
         pending_ = false;
         if (in_time([&] { update(); })) is_stale_ = true;
         rest = Stopwatch();
