@@ -7,15 +7,6 @@ papilla=$1 data=$2
 # shellcheck source=tests/apps/failures.sh
 source "$(dirname "$0")/failures.sh" "$3"
 
-# code WANTED PATTERN COMMAND...: the exit code, and a line of stderr.
-code() {
-  local -r wanted=$1 pattern=$2
-  shift 2
-  "$@" >out.txt 2>err.txt </dev/null
-  local -r got=$?
-  [[ $got == "$wanted" ]] || fail "exit $got instead of $wanted: $*: $(cat err.txt)"
-  [[ -z $pattern ]] || grep -qE -- "$pattern" err.txt || fail "no '$pattern' in: $(cat err.txt)"
-}
 has() { grep -qE -- "$2" "$1" || fail "no '$2' in $1: $(cat "$1")"; }
 no_temporaries() { [[ -z $(find . -name '.papilla-*') ]] || fail "temporary files are left: $(find . -name '.papilla-*')"; }
 

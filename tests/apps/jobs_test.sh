@@ -7,16 +7,6 @@ papilla=$1 data=$2
 # shellcheck source=tests/apps/failures.sh
 source "$(dirname "$0")/failures.sh" "$3"
 
-# code WANTED PATTERN COMMAND...: the exit code, and a line of stderr.
-code() {
-  local -r wanted=$1 pattern=$2
-  shift 2
-  "$@" >out.txt 2>err.txt </dev/null
-  local -r got=$?
-  [[ $got == "$wanted" ]] || fail "exit $got instead of $wanted: $*: $(cat err.txt)"
-  [[ -z $pattern ]] || grep -qE -- "$pattern" err.txt || fail "no '$pattern' in: $(cat err.txt)"
-}
-
 cat >rules.json <<'JSON'
 {"materials": {"cap": {"texture": "grain:leather", "size_mm": [30, 20], "stiffness": 600},
                "column": {"texture": "wood", "size_mm": [60, 40], "stiffness": 900}},

@@ -141,7 +141,9 @@ void add_work(bench::BenchReport& report, const Materials& demo) {
                   ways, k_fine, k_runs),
       {"material", "stroke", "off", "sweeps, mean", "99 %", "99.9 %", "most", "time [µs], 50 %", "99 %", "99.9 %"},
       {}};
-  std::vector<double> all;
+  std::vector<double> all;  // On reliefs.
+  double slowest_us = 0;
+  std::string slowest;
   const DeviceCaps caps = device_preset("omega3").caps();
   for (const auto& [name, rule] : demo.materials) {
     const testing::FeltPlate plate = testing::felt_plate(rule, caps);
@@ -155,13 +157,17 @@ void add_work(bench::BenchReport& report, const Materials& demo) {
           fmt::format("{:.1f}", sum / static_cast<double>(work.sweeps.size()))};
       for (const double q : {0.99, 0.999, 1.0}) cells.push_back(fmt::format("{:.0f}", quantile(work.sweeps, q)));
       for (const double q : {0.5, 0.99, 0.999}) cells.push_back(fmt::format("{:.1f}", 1e6 * quantile(work.seconds, q)));
+      const double us = 1e6 * quantile(work.seconds, 0.999);
+      if (us > slowest_us) slowest_us = us, slowest = name + ", " + cells[1];
       table.rows.push_back(std::move(cells));
-      all.insert(all.end(), work.seconds.begin(), work.seconds.end());
+      if (!rule.texture.empty()) all.insert(all.end(), work.seconds.begin(), work.seconds.end());
     }
   }
   const double p999_us = 1e6 * quantile(all, 0.999);
-  report.target({fmt::format("p99.9 of a tick over the strokes of the demo at most {:g} µs", k_most_tick_us),
+  report.target({fmt::format("p99.9 of a tick over all strokes on reliefs of the demo at most {:g} µs", k_most_tick_us),
                  fmt::format("{:.1f} µs of {} ticks", p999_us, all.size()), p999_us <= k_most_tick_us});
+  report.target({fmt::format("p99.9 of a tick of each stroke on its own at most {:g} µs", k_most_tick_us),
+                 fmt::format("{:.1f} µs ({})", slowest_us, slowest), slowest_us <= k_most_tick_us});
   report.table(std::move(table));
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/grain.hpp"
@@ -72,8 +73,18 @@ TEST_F(GrainMakerTest, AFailureIsToldWhereItIsAskedFor) {
 }
 
 TEST_F(GrainMakerTest, WhatNobodyAsksForIsLeft) {
-  GrainMaker maker(rules_, library_, {}, nullptr);
-  maker.begin_ahead();  // Ends without a failure of "lost", and before all are made.
+  constexpr std::size_t k_many = 12;
+  for (std::size_t i = 0; i < k_many; ++i) {
+    const std::string name = "deeper " + std::to_string(i);
+    add(name, folder_ / "balls.png");
+    rules_.materials.at(name).height.depth_mm = 0.5 + 0.1 * static_cast<double>(i);
+  }
+  const StageCache cache{ContentStore(folder_ / "cache")};
+  {
+    GrainMaker maker(rules_, library_, {}, &cache);
+    maker.begin_ahead();
+  }
+  EXPECT_LT(cache.results().size(), k_many) << "it ends with the grain that it is making";
 }
 
 TEST_F(GrainMakerTest, ADeadlineHoldsForWhatIsMadeWhenAskedFor) {

@@ -222,10 +222,6 @@ Json images_json(const Scene& scene) {
   return images;
 }
 
-}  // namespace
-
-namespace {
-
 /// What nodes show: first the finest levels of detail, then the coarser ones.
 struct ShownUses {
   std::vector<Instance> uses;

@@ -39,9 +39,8 @@ inline CacheUse use_until(const Deadline& deadline) {
 /// nothing is written from then on.
 class StageCache {
  public:
-  /// @param shared A cache that others use, too, behind `store`: a result that only it has is taken over from there,
-  /// and
-  ///               what is made here becomes an entry of both. Null: there is none.
+  /// @param shared  a cache that others use, too, behind `store`: what only it has is taken over, and what is made here
+  ///                becomes an entry of both. Null: there is none.
   explicit StageCache(ContentStore store, const StageCache* shared = nullptr);
   ~StageCache();
   StageCache(const StageCache&) = delete;
