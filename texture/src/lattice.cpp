@@ -521,6 +521,15 @@ double significance(const CorrelationMap& map, const Basis& basis, const std::ve
   return std::max(0.0, sum / static_cast<double>(nodes.size()) / std::max(map.attainable(), k_least_signal));
 }
 
+/// Correlation along stripes: of the two shifts that span the cell, the better one. A lattice may be longer than the
+/// map in one direction: that one says nothing.
+double stripe_correlation(const CorrelationMap& map, const Basis& basis) {
+  double best = 0;
+  for (const Vec2 node : {basis.a, basis.b})
+    if (map.contains(node)) best = std::max(best, map.sample(node));
+  return std::min(best, 1.0);
+}
+
 /// True when the correlation does not dip on the way to some neighbouring node.
 bool is_striped(const CorrelationMap& map, const Basis& basis) {
   for (const Vec2 node : {basis.a, basis.b, basis.a + basis.b, basis.a - basis.b})
@@ -571,7 +580,7 @@ Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options)
     return lattice;
   }
   if (is_striped(map, basis)) {
-    lattice.stripes = std::clamp(std::max(map.sample(basis.a), map.sample(basis.b)), 0.0, 1.0);
+    lattice.stripes = stripe_correlation(map, basis);
     lattice.reason = "the picture repeats in one direction only";
     return lattice;
   }
