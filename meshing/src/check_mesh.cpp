@@ -75,17 +75,21 @@ std::vector<Index> opposite_within_charts(const TriangleMesh& mesh, const EdgeTa
   return opposite;
 }
 
-void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bounds3& bounds) {
+bool is_distance_position(const Vec3& p) noexcept {
   constexpr double k_largest = 1e15;
   const auto usable = [](double x) { return std::abs(x) <= k_largest; };
+  return usable(p.x) && usable(p.y) && usable(p.z);
+}
+
+void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bounds3& bounds) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const Index v : mesh.triangles[t]) {
       if (v >= mesh.positions.size())
         throw InvalidInput(std::string(what) + ".triangles[" + std::to_string(t) + "]: there is no position " +
                            std::to_string(v));
       const Vec3& p = mesh.positions[v];
-      if (!usable(p.x) || !usable(p.y) || !usable(p.z))
-        throw InvalidInput(std::string(what) + ".positions[" + std::to_string(v) + "]: not finite or beyond 1e15 mm");
+      if (!is_distance_position(p))
+        throw InvalidInput(std::string(what) + ".positions[" + std::to_string(v) + "]: " + k_no_distance_position);
       bounds.add(p);
     }
 }

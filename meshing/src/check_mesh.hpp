@@ -22,9 +22,12 @@ void check_charts(const TriangleMesh& mesh, const ChartSet& charts, const char* 
 std::vector<Index> opposite_within_charts(const TriangleMesh& mesh, const EdgeTable& edges, const ChartSet& charts,
                                           const char* function);
 
+/// Whether a position is finite and within 1e15 mm, beyond which single precision boxes of size ratios overflow.
+bool is_distance_position(const Vec3& p) noexcept;
+inline constexpr const char* k_no_distance_position = "not finite or beyond 1e15 mm";
+
 /// Adds the positions that triangles name to `bounds`. Throws InvalidInput naming `what` and the index when a
-/// triangle names a position that does not exist, or one that is not finite or beyond 1e15 mm, beyond which single
-/// precision boxes of size ratios overflow.
+/// triangle names a position that does not exist, or one that is no distance position.
 void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bounds3& bounds);
 
 }  // namespace papilla::detail

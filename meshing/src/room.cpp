@@ -17,14 +17,14 @@ constexpr std::size_t k_rays = 64;
 /// Below it half of the directions or more are free, as outside of everything.
 constexpr double k_least_enclosure = 0.5;
 
-Place look_around(const TriangleBvh& bvh, std::span<const Facing> facing, const Vec3& point,
+Place look_around(const PlacedBvh& bvh, std::span<const Facing> facing, const Vec3& point,
                   const std::vector<Vec3>& directions, double reach_mm) {
   Place place{point, 0, std::sqrt(bvh.closest(point).squared_distance), 0};
   std::size_t hits = 0, fronts = 0;
   for (const Vec3& direction : directions) {
     const Index hit = bvh.first_cut(point, point + reach_mm * direction);
     if (hit == k_no_value) continue;
-    const TriangleFrame& frame = bvh.frame(hit);
+    const TriangleFrame frame = bvh.frame(hit);
     ++hits;
     const Facing side = facing.empty() ? Facing::as_is : facing[hit];
     fronts += side == Facing::unknown || (dot(cross(frame.ab, frame.ac), direction) < 0) == (side == Facing::as_is);
@@ -48,7 +48,7 @@ std::vector<Vec3> directions_around(std::size_t count) {
   return directions;
 }
 
-std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds, std::span<const Facing> facing) {
+std::vector<Place> look_for_places(const PlacedBvh& bvh, const Bounds3& bounds, std::span<const Facing> facing) {
   const std::vector<Vec3> directions = directions_around(k_rays);
   const Volume box = BoxVolume{bounds.low, bounds.high};
   std::vector<Place> places(k_places);
@@ -65,7 +65,7 @@ std::optional<Place> best_place(const std::vector<Place>& places) {
   return *best;
 }
 
-std::vector<Vec3> places_around(const TriangleBvh& bvh, const std::vector<Place>& places, const Vec3& point,
+std::vector<Vec3> places_around(const PlacedBvh& bvh, const std::vector<Place>& places, const Vec3& point,
                                 std::size_t most) {
   std::vector<Place> seen;
   for (const Place& place : places)

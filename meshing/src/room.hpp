@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "papilla/core/bounds.hpp"
-#include "triangle_bvh.hpp"
+#include "placed_bvh.hpp"
 
 namespace papilla::detail {
 
@@ -25,16 +25,15 @@ enum class Facing : std::uint8_t { as_is, turned, unknown };
 
 /// Places spread over the scene's box. Surfaces whose facing is unknown show no back.
 /// Cost: 512 places with 64 rays each, about 1 us a ray. Parallel, deterministic.
-/// @param bvh of triangles that are counter-clockwise seen from their front.
 /// @param facing of each of them; empty: all as they are.
-std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds, std::span<const Facing> facing);
+std::vector<Place> look_for_places(const PlacedBvh& bvh, const Bounds3& bounds, std::span<const Facing> facing);
 
 /// The place with the highest score above 0.
 std::optional<Place> best_place(const std::vector<Place>& places);
 
 /// Up to `most` places around that see `point` and have at least half the score of the best of them, or of `point`
 /// itself where it is one of the places and better.
-std::vector<Vec3> places_around(const TriangleBvh& bvh, const std::vector<Place>& places, const Vec3& point,
+std::vector<Vec3> places_around(const PlacedBvh& bvh, const std::vector<Place>& places, const Vec3& point,
                                 std::size_t most);
 
 /// Directions spread evenly over the sphere, each with its opposite. @param count even.

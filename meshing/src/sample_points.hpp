@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "papilla/meshing/visibility.hpp"
+#include "world_scene.hpp"
 
 namespace papilla::detail {
 
@@ -40,13 +41,13 @@ inline Vec3 point_in(const Volume& volume, std::uint64_t i) noexcept {
   return sphere.centre + (sphere.radius_mm * std::cbrt(w)) * Vec3{flat * std::cos(angle), flat * std::sin(angle), z};
 }
 
-/// Points spread evenly over the area of some of a mesh's triangles, the same ones when those are turned over.
+/// Points spread evenly over the area of some of a part's triangles, the same ones when those are turned over.
 class AreaSampler {
  public:
-  explicit AreaSampler(const TriangleMesh& mesh) : mesh_(mesh) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add(t);
+  explicit AreaSampler(const PlacedTriangles& part) : part_(part) {
+    for (std::size_t t = 0; t < part.size(); ++t) add(t);
   }
-  AreaSampler(const TriangleMesh& mesh, std::span<const Index> triangles) : mesh_(mesh), triangles_(triangles) {
+  AreaSampler(const PlacedTriangles& part, std::span<const Index> triangles) : part_(part), triangles_(triangles) {
     for (const Index t : triangles) add(t);
   }
   bool empty() const noexcept { return cumulative_.empty() || !(cumulative_.back() > 0); }
@@ -78,13 +79,13 @@ class AreaSampler {
 
   /// In the order of their coordinates.
   std::array<Vec3, 3> corners(std::size_t t) const {
-    std::array<Vec3, 3> all{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
+    std::array<Vec3, 3> all{part_.corner(t, 0), part_.corner(t, 1), part_.corner(t, 2)};
     std::sort(all.begin(), all.end(),
               [](const Vec3& p, const Vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); });
     return all;
   }
 
-  const TriangleMesh& mesh_;
+  const PlacedTriangles& part_;
   std::span<const Index> triangles_;  ///< Empty: all.
   std::vector<double> cumulative_;    ///< Twice the area of the triangles up to each.
 };

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <string>
 
+#include "check_mesh.hpp"
 #include "edge_table.hpp"
 #include "open_sheets.hpp"
 #include "papilla/core/error.hpp"
+#include "placed_bvh.hpp"
 #include "room.hpp"
 #include "sample_points.hpp"
-#include "world_scene.hpp"
 
 namespace papilla {
 namespace {
@@ -54,10 +54,6 @@ struct BorderEdge {
   Vec3 from, to;
   std::uint32_t sheet = 0;
 };
-
-bool is_mirrored(const std::array<double, 16>& m) noexcept {
-  return dot(Vec3{m[0], m[4], m[8]}, cross(Vec3{m[1], m[5], m[9]}, Vec3{m[2], m[6], m[10]})) < 0;
-}
 
 class SideFinder {
  public:
@@ -115,12 +111,11 @@ class SideFinder {
   /// Sets the facing of the opaque triangles of sheets that can have a side. @param facing_of of a sheet's triangle.
   template <typename FacingOf>
   std::vector<Facing> facing_of_sheets(FacingOf facing_of) const {
-    std::vector<Facing> facing(bvh_->size(), Facing::as_is);
+    std::vector<Facing> facing(bvh_.size(), Facing::as_is);
     for (const PlacedSheet& placed : placed_) {
       const Sheet& sheet = sheets_[placed.sheet];
-      const Index first = first_opaque_[placed.use];
-      if (first == k_no_value || !open_of(sheet).orientable) continue;
-      for (const Index t : open_of(sheet).triangles) facing[first + t] = facing_of(sheet, t);
+      if (!scene_.parts[placed.use].is_opaque() || !open_of(sheet).orientable) continue;
+      for (const Index t : open_of(sheet).triangles) facing[bvh_.number(placed.use, t)] = facing_of(sheet, t);
     }
     return facing;
   }
@@ -171,14 +166,7 @@ class SideFinder {
 
   void place_scene() {
     scene_ = place(uses_, "find_sheet_sides");
-    TriangleMesh opaque = opaque_triangles(scene_, uses_, first_opaque_);
-    for (std::size_t u = 0; u < uses_.size(); ++u) {
-      mirrored_.push_back(is_mirrored(uses_[u].world));
-      if (first_opaque_[u] == k_no_value || !mirrored_.back()) continue;
-      for (std::size_t t = 0; t < scene_.parts[u].triangles.size(); ++t)
-        std::swap(opaque.triangles[first_opaque_[u] + t][1], opaque.triangles[first_opaque_[u] + t][2]);
-    }
-    bvh_ = std::make_unique<TriangleBvh>(opaque.positions, opaque.triangles);
+    bvh_ = PlacedBvh(scene_);
     diagonal_ = scene_.bounds.diagonal();
   }
 
@@ -191,19 +179,19 @@ class SideFinder {
       result_.eye = *options_.inside;
       rounds.push_back({{*options_.inside}, SideReason::seen});
       rounds.push_back(
-          {places_around(*bvh_, look_for_places(*bvh_, scene_.bounds, facing), *options_.inside, k_room_eyes),
+          {places_around(bvh_, look_for_places(bvh_, scene_.bounds, facing), *options_.inside, k_room_eyes),
            SideReason::seen});
     } else if (!options_.view.empty()) {
       result_.viewpoint = Viewpoint::view;
       rounds.push_back({{}, SideReason::seen});
       for (const Volume& volume : options_.view)
         for (std::uint64_t i = 0; i < k_view_eyes; ++i) rounds.back().eyes.push_back(point_in(volume, i));
-    } else if (const std::vector<Place> places = look_for_places(*bvh_, scene_.bounds, facing);
+    } else if (const std::vector<Place> places = look_for_places(bvh_, scene_.bounds, facing);
                const std::optional<Place> room = best_place(places)) {
       result_.viewpoint = Viewpoint::room;
       result_.eye = room->point;
       result_.enclosure = room->enclosure;
-      rounds.push_back({places_around(*bvh_, places, room->point, k_room_eyes - 1), SideReason::seen});
+      rounds.push_back({places_around(bvh_, places, room->point, k_room_eyes - 1), SideReason::seen});
       rounds.back().eyes.push_back(room->point);
     } else {
       result_.viewpoint = Viewpoint::around;
@@ -230,25 +218,24 @@ class SideFinder {
 
   Votes look_at(const PlacedSheet& placed, const std::vector<Vec3>& eyes, std::size_t points) const {
     const Sheet& sheet = sheets_[placed.sheet];
-    const TriangleMesh& mesh = scene_.parts[placed.use];
-    const AreaSampler sampler(mesh, open_of(sheet).triangles);
+    const PlacedTriangles& part = scene_.parts[placed.use];
+    const AreaSampler sampler(part, open_of(sheet).triangles);
     Votes votes;
     if (sampler.empty()) return votes;
     const double start = k_ray_start * diagonal_;
     votes.points = points;
     for (std::size_t i = 0; i < points; ++i) {
       const auto [t, point] = sampler(i, points);
-      const bool turned = (open_[sheet.mesh].against[t] != 0) != mirrored_[placed.use];
-      const Vec3 normal = (turned ? -1.0 : 1.0) * normalized(cross(mesh.corner(t, 1) - mesh.corner(t, 0),
-                                                                   mesh.corner(t, 2) - mesh.corner(t, 0)));
-      const Index own =
-          first_opaque_[placed.use] == k_no_value ? k_no_value : first_opaque_[placed.use] + static_cast<Index>(t);
+      const bool turned = (open_[sheet.mesh].against[t] != 0) != part.is_mirrored();
+      const Vec3 normal = (turned ? -1.0 : 1.0) * normalized(cross(part.corner(t, 1) - part.corner(t, 0),
+                                                                   part.corner(t, 2) - part.corner(t, 0)));
+      const Index own = bvh_.number(placed.use, t);
       bool seen = false;
       for (const Vec3& eye : eyes) {
         const Vec3 way = eye - point;
         const double length = norm(way), height = length > 0 ? dot(normal, way) / length : 0;
         if (length <= start || std::abs(height) < k_flattest) continue;
-        if (bvh_->blocks(point + (start / length) * way, eye, own)) continue;
+        if (bvh_.blocks(point + (start / length) * way, eye, own)) continue;
         seen = true;
         (height > 0 ? votes.front : votes.back) += std::abs(height);
       }
@@ -294,12 +281,12 @@ class SideFinder {
   void add_border(const PlacedSheet& placed, std::size_t most, std::vector<BorderEdge>& edges) const {
     const Sheet& sheet = sheets_[placed.sheet];
     const std::vector<Index>& border = open_of(sheet).border;
-    const TriangleMesh& mesh = scene_.parts[placed.use];
+    const PlacedTriangles& part = scene_.parts[placed.use];
     const std::size_t count = std::min(most, border.size());
     for (std::size_t i = 0; i < count; ++i) {
       const Index h = border[i * border.size() / count], t = triangle_of(h);
-      Vec3 from = mesh.positions[from_vertex(mesh.triangles, h)], to = mesh.positions[to_vertex(mesh.triangles, h)];
-      const bool turned = (open_[sheet.mesh].against[t] != 0) != (mirrored_[placed.use] != 0);
+      Vec3 from = part.position(from_vertex(part.triangles(), h)), to = part.position(to_vertex(part.triangles(), h));
+      const bool turned = (open_[sheet.mesh].against[t] != 0) != part.is_mirrored();
       if (turned != sheet.faces_away) std::swap(from, to);
       edges.push_back({from, to, placed.sheet});
     }
@@ -394,9 +381,7 @@ class SideFinder {
   std::vector<Sheet> sheets_;
   std::vector<PlacedSheet> placed_;
   WorldScene scene_;
-  std::vector<Index> first_opaque_;
-  std::vector<std::uint8_t> mirrored_;  ///< Per use.
-  std::unique_ptr<const TriangleBvh> bvh_;
+  PlacedBvh bvh_;
   double diagonal_ = 0;
 };
 

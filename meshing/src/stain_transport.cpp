@@ -242,8 +242,10 @@ StainField::StainField(std::span<const PlacedMesh> parts, const StainOptions& op
   // The scene as gravity sees it.
   std::array<double, 3> low, high;
   low.fill(std::numeric_limits<double>::infinity()), high.fill(-std::numeric_limits<double>::infinity());
-  for (const TriangleMesh& part : detail::place(parts, "StainField").parts)
-    for (const Vec3& p : part.positions) {
+  const detail::WorldScene placed = detail::place(parts, "StainField");
+  for (const detail::PlacedTriangles& part : placed.parts)
+    for (Index v = 0; v < part.vertices(); ++v) {
+      const Vec3 p = part.position(v);
       const std::array<double, 3> seen{dot(p, world.across), dot(p, world.along), dot(p, world.down)};
       for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], seen[k]), high[k] = std::max(high[k], seen[k]);
       deposits->corner = p;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "box_tree.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
@@ -85,13 +87,40 @@ struct ClosestPoint {
   Index triangle = k_no_value;
 };
 
-/// A tree of boxes over a triangle list, for closest points and for sight lines. Four boxes a node, single precision
-/// around the list's centre and rounded outwards by more than the search's own rounding; the triangles themselves stay
-/// in double precision. Own code because the known libraries lack what the callers live on: a start bound for the
-/// search ("nearer than this?", from the neighbour's answer) and answers in double precision. Building costs O(n log n)
-/// by the surface area heuristic, in parallel; about 150 bytes a triangle, up to twice that when most are slanted
-/// slivers, which lie in rows of boxes. Any triangle shape is fine. Same input, same tree, whatever the number of
-/// threads.
+/// Where the open segment a + t d, 0 < t < 1, cuts the triangle [Möller & Trumbore 1997]; 0 when it does not, as those
+/// parallel to it.
+inline double cut_at(const Vec3& a, const Vec3& d, const TriangleFrame& t) noexcept {
+  const Vec3 h = cross(d, t.ac);
+  const double det = dot(t.ab, h);
+  if (!(std::abs(det) > 0)) return 0;
+  const double inverse = 1 / det;
+  const Vec3 s = a - t.a;
+  const double u = inverse * dot(s, h);
+  if (!(u >= 0 && u <= 1)) return 0;
+  const Vec3 q = cross(s, t.ab);
+  const double v = inverse * dot(d, q);
+  if (!(v >= 0 && u + v <= 1)) return 0;
+  const double along = inverse * dot(t.ac, q);
+  return along > 0 && along < 1 ? along : 0;
+}
+
+/// The cut of a segment nearest to its start, the least number of several there.
+struct FirstCut {
+  double at = 1;
+  Index triangle = k_no_value;
+
+  /// @param t  as from cut_at().
+  void add(double t, Index number) noexcept {
+    if (!(t > 0) || !(t < at || (t == at && number < triangle))) return;
+    at = t;
+    triangle = number;
+  }
+};
+
+/// A list of triangles for closest points and for sight lines, those in double precision. Own code because the known
+/// libraries lack what the callers live on: a start bound for the search ("nearer than this?", from the neighbour's
+/// answer) and answers in double precision. About 150 bytes a triangle, up to twice that when most are slanted slivers.
+/// Any triangle shape is fine.
 class TriangleBvh {
  public:
   /// @param positions Finite. @param triangles With indices in range; the positions are copied.
@@ -119,20 +148,8 @@ class TriangleBvh {
     [[no_unique_address]] TriangleFrame frame;  // The number takes the bytes that its flag leaves.
     Index triangle = 0;
   };
-  /// Children >= 0 are nodes, others leaves of ~child: first prim in the upper bits, count in the lower three.
-  struct alignas(64) Node {
-    float low[3][4], high[3][4];
-    std::int64_t child[4];
-  };
-  friend class BvhBuilder;
 
-  /// Calls visit(prim, t) for the triangles that cut a + t (b - a), 0 < t < end, until one call returns true; `end` may
-  /// fall meanwhile.
-  template <class Visit>
-  void visit_cuts(const Vec3& a, const Vec3& b, const double& end, const Visit& visit) const noexcept;
-
-  Vec3 centre_;
-  std::vector<Node> nodes_;
+  BoxTree tree_;
   std::vector<Prim> prims_;
   std::vector<Index> slot_of_;
 };

@@ -9,9 +9,8 @@
 
 #include "convex_piece.hpp"
 #include "papilla/core/error.hpp"
+#include "placed_bvh.hpp"
 #include "sample_points.hpp"
-#include "triangle_bvh.hpp"
-#include "world_scene.hpp"
 
 namespace papilla {
 namespace {
@@ -50,11 +49,11 @@ bool touches(detail::ConvexPiece piece, const BoxVolume& box) noexcept {
   return true;
 }
 
-bool touches(const TriangleMesh& mesh, std::size_t t, const Volume& volume) noexcept {
+bool touches(const detail::PlacedTriangles& part, std::size_t t, const Volume& volume) noexcept {
   if (const auto* box = std::get_if<BoxVolume>(&volume))
-    return touches(detail::ConvexPiece(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)), *box);
+    return touches(detail::ConvexPiece(part.corner(t, 0), part.corner(t, 1), part.corner(t, 2)), *box);
   const auto& sphere = std::get<SphereVolume>(volume);
-  const detail::TriangleFrame frame(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  const detail::TriangleFrame frame(part.corner(t, 0), part.corner(t, 1), part.corner(t, 2));
   return detail::squared_distance(sphere.centre, frame) <= sphere.radius_mm * sphere.radius_mm;
 }
 
@@ -66,9 +65,7 @@ std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts
   if (options.samples_per_part == 0 || options.eyes_per_sample == 0)
     throw InvalidInput("measure_visibility: samples_per_part and eyes_per_sample must be positive");
   const detail::WorldScene scene = detail::place(parts, "measure_visibility");
-  std::vector<Index> first;
-  const TriangleMesh opaque = detail::opaque_triangles(scene, parts, first);
-  const detail::TriangleBvh bvh(opaque.positions, opaque.triangles);
+  const detail::PlacedBvh bvh(scene);
   const double start = 1e-6 * scene.bounds.diagonal();
 
   std::vector<PartVisibility> result(parts.size());
@@ -79,7 +76,7 @@ std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts
     std::vector<std::uint8_t> seen(count, 0);
     oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t s) {
       const auto sample = sampler(s, count);
-      const Index own = first[i] == k_no_value ? k_no_value : first[i] + static_cast<Index>(sample.triangle);
+      const Index own = bvh.number(i, sample.triangle);
       for (std::uint64_t e = 0; e < options.eyes_per_sample && !seen[s]; ++e) {
         const Vec3 to = detail::point_in(eyes, s * options.eyes_per_sample + e), way = to - sample.point;
         const double length = norm(way);
@@ -98,9 +95,9 @@ std::vector<PartReach> measure_reach(std::span<const PlacedMesh> parts, const Vo
   const detail::WorldScene scene = detail::place(parts, "measure_reach");
   std::vector<PartReach> result(parts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    const TriangleMesh& mesh = scene.parts[i];
-    result[i].triangles = mesh.triangles.size();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) result[i].triangles_inside += touches(mesh, t, reach);
+    const detail::PlacedTriangles& part = scene.parts[i];
+    result[i].triangles = part.size();
+    for (std::size_t t = 0; t < part.size(); ++t) result[i].triangles_inside += touches(part, t, reach);
   });
   return result;
 }

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "check_mesh.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/meshing/placed_mesh.hpp"
 #include "triangle_bvh.hpp"
@@ -16,19 +15,46 @@ namespace papilla::detail {
 /// Of the scene's diagonal: so far off its surface a ray starts.
 inline constexpr double k_ray_start = 1e-5;
 
-/// The parts' triangles in the scene's space, one part after the other.
+/// The triangles of a part where it stands.
+class PlacedTriangles {
+ public:
+  PlacedTriangles() = default;
+  explicit PlacedTriangles(const PlacedMesh& part) noexcept : part_(part) {}
+
+  std::size_t size() const noexcept { return part_.mesh->triangles.size(); }
+  Index vertices() const noexcept { return static_cast<Index>(part_.mesh->positions.size()); }
+  const std::vector<Triangle>& triangles() const noexcept { return part_.mesh->triangles; }
+  bool is_opaque() const noexcept { return part_.opaque; }
+
+  /// Whether triangles run clockwise that ran counter-clockwise.
+  bool is_mirrored() const noexcept {
+    const auto& m = part_.world;
+    return dot(Vec3{m[0], m[4], m[8]}, cross(Vec3{m[1], m[5], m[9]}, Vec3{m[2], m[6], m[10]})) < 0;
+  }
+
+  Vec3 position(Index vertex) const noexcept {
+    const auto& m = part_.world;
+    const Vec3& p = part_.mesh->positions[vertex];
+    return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
+            m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
+  }
+  Vec3 corner(std::size_t triangle, int k) const noexcept {
+    return position(part_.mesh->triangles[triangle][static_cast<std::size_t>(k)]);
+  }
+
+ private:
+  PlacedMesh part_;
+};
+
+/// The parts in the scene's space. Their meshes must outlive it.
 struct WorldScene {
-  std::vector<TriangleMesh> parts;
+  std::vector<PlacedTriangles> parts;
   Bounds3 bounds;
 };
 
 /// @throws InvalidInput naming function and part when a mesh is missing or has a bad index or coordinate, or is not
 ///         finite where it stands.
 WorldScene place(std::span<const PlacedMesh> parts, const std::string& function);
-
-/// The triangles of the parts that are opaque as one list.
-/// @param first  becomes a number a part: where its triangles begin, or k_no_value when it is not opaque.
-TriangleMesh opaque_triangles(const WorldScene& scene, std::span<const PlacedMesh> parts, std::vector<Index>& first);
 
 /// What hides in a scene.
 struct Occluders {
