@@ -37,9 +37,76 @@ struct Corner {
   Index position = k_none, uv = k_none, normal = k_none;
 };
 
+/// The corners of faces, one list a number; those of uv and normals end with the last that is given.
+class CornerList {
+ public:
+  std::size_t size() const noexcept { return position_.size(); }
+  void reserve(std::size_t corners) { position_.reserve(corners); }
+
+  void push_back(const Corner& corner) {
+    position_.push_back(corner.position);
+    add(uv_, corner.uv);
+    add(normal_, corner.normal);
+  }
+  void resize(std::size_t size) {
+    for (std::vector<Index>* list : {&position_, &uv_, &normal_}) list->resize(std::min(list->size(), size));
+  }
+  Corner operator[](std::size_t i) const noexcept {
+    return {position_[i], i < uv_.size() ? uv_[i] : k_none, i < normal_.size() ? normal_[i] : k_none};
+  }
+
+ private:
+  void add(std::vector<Index>& list, Index number) const {
+    if (number == k_none) return;
+    list.resize(position_.size() - 1, k_none);
+    list.push_back(number);
+  }
+
+  std::vector<Index> position_, uv_, normal_;
+};
+
 struct Face {
   std::size_t first_corner;
-  std::uint32_t corners, line, object, group, material;
+  std::uint32_t corners, line;
+};
+
+/// Faces one after the other that belong together; the next run's first ones end them.
+struct Run {
+  std::size_t first_face, first_corner;
+  std::uint32_t object, group, material;
+};
+
+/// The faces of a file in 8 bytes each.
+class FaceList {
+ public:
+  void reserve(std::size_t faces) { sizes_.reserve(faces); }
+
+  void push_back(const Face& face, std::uint32_t object, std::uint32_t group, std::uint32_t material) {
+    if (runs_.empty() || runs_.back().object != object || runs_.back().group != group ||
+        runs_.back().material != material)
+      runs_.push_back({sizes_.size(), face.first_corner, object, group, material});
+    sizes_.push_back({face.corners, face.line});
+  }
+  const std::vector<Run>& runs() const noexcept { return runs_; }
+
+  /// Calls do_face(face) for those of a run.
+  template <class DoFace>
+  void each(const Run& run, const DoFace& do_face) const {
+    const bool is_last = &run == &runs_.back();
+    const std::size_t end = is_last ? sizes_.size() : (&run)[1].first_face;
+    std::size_t corner = run.first_corner;
+    for (std::size_t f = run.first_face; f < end; ++f) {
+      do_face(Face{corner, sizes_[f].corners, sizes_[f].line});
+      corner += sizes_[f].corners;
+    }
+  }
+
+ private:
+  struct Size {
+    std::uint32_t corners, line;
+  };
+  std::vector<Size> sizes_;
+  std::vector<Run> runs_;
 };
 
 /// A name's number in the order of first use.
@@ -68,8 +135,8 @@ struct ObjContent {
   std::vector<Vec3> positions, normals;
   std::vector<Vec2> uv;
   std::vector<Color> colors;  ///< As many as positions, or none.
-  std::vector<Corner> corners;
-  std::vector<Face> faces;
+  CornerList corners;
+  FaceList faces;
   NameTable objects, groups, materials;
   std::vector<Library> libraries;
 };
@@ -79,6 +146,7 @@ class ObjParser {
   ObjParser(std::string_view text, const std::string& file, Scene& scene) : text_(text), file_(file), scene_(scene) {}
 
   ObjContent parse() {
+    make_room();
     object_ = content_.objects.number("");
     group_ = content_.groups.number("");
     material_ = content_.materials.number("");
@@ -96,6 +164,19 @@ class ObjParser {
   struct Oddity {
     std::size_t count = 0, line = 0;
   };
+
+  /// For positions and faces as many as there are lines that begin with them: growing lists take twice their memory.
+  void make_room() {
+    std::size_t positions = 0, faces = 0;
+    for (std::size_t at = 0; at < text_.size(); at = std::min(text_.find('\n', at), text_.size()) + 1) {
+      const std::string_view line = text_.substr(at, 2);
+      positions += line == "v ";
+      faces += line == "f ";
+    }
+    content_.positions.reserve(positions);
+    content_.faces.reserve(faces);
+    content_.corners.reserve(3 * faces);
+  }
 
   [[noreturn]] void fail(const std::string& reason) const {
     throw InvalidInput(fmt::format("{}: line {}: {}", file_, line_, reason));
@@ -257,8 +338,8 @@ class ObjParser {
       content_.corners.resize(first);
       return;
     }
-    content_.faces.push_back(
-        {first, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(line_), object_, group_, material_});
+    content_.faces.push_back({first, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(line_)}, object_,
+                             group_, material_);
   }
 
   std::string_view text_;
@@ -278,12 +359,15 @@ void check_indices(const ObjContent& content, const std::string& file) {
       throw InvalidInput(
           fmt::format("{}: line {}: {} {} of {} does not exist", file, face.line, what, std::size_t{index} + 1, size));
   };
-  for (const Face& face : content.faces)
+  const auto check_face = [&](const Face& face) {
     for (std::size_t i = face.first_corner; i < face.first_corner + face.corners; ++i) {
-      check(face, content.corners[i].position, content.positions.size(), "vertex");
-      check(face, content.corners[i].uv, content.uv.size(), "texture vertex");
-      check(face, content.corners[i].normal, content.normals.size(), "normal");
+      const Corner corner = content.corners[i];
+      check(face, corner.position, content.positions.size(), "vertex");
+      check(face, corner.uv, content.uv.size(), "texture vertex");
+      check(face, corner.normal, content.normals.size(), "normal");
     }
+  };
+  for (const Run& run : content.faces.runs()) content.faces.each(run, check_face);
 }
 
 /// Materials of the libraries by name; an unknown name becomes a material with default values.
@@ -370,20 +454,16 @@ class PartAssembler {
         normals_(content.normals.size()) {}
 
   /// @param slots  the part's slot of every material number of the content.
-  Part assemble(const std::vector<const Face*>& faces, const std::map<std::uint32_t, std::uint32_t>& slots) {
+  Part assemble(const std::vector<const Run*>& runs, const std::map<std::uint32_t, std::uint32_t>& slots) {
     Part part;
     TriangleMesh& mesh = part.mesh;
-    collect(faces, mesh);
-    bool several_groups = false, several_slots = false;
-    for (const Face* face : faces) {
-      several_groups |= face->group != faces.front()->group;
-      several_slots |= face->material != faces.front()->material;
-      append_face(*face, mesh);
-      mesh.face.resize(mesh.triangles.size(), face->group);
-      mesh.material.resize(mesh.triangles.size(), slots.at(face->material));
+    collect(runs, mesh);
+    const bool several_groups = differ(runs, &Run::group), several_slots = differ(runs, &Run::material);
+    for (const Run* run : runs) {
+      content_.faces.each(*run, [&](const Face& face) { append_face(face, mesh); });
+      if (several_groups) mesh.face.resize(mesh.triangles.size(), run->group);
+      if (several_slots) mesh.material.resize(mesh.triangles.size(), slots.at(run->material));
     }
-    if (!several_groups) mesh.face.clear();
-    if (!several_slots) mesh.material.clear();
     if (!content_.colors.empty()) mesh.colors.indices = mesh.triangles;
     positions_.clear();
     uv_.clear();
@@ -392,15 +472,20 @@ class PartAssembler {
   }
 
  private:
-  /// Fills the value lists. Faces without uv or normals have no value there; where only some corners lack one, these
-  /// use a neutral value behind the others.
-  void collect(const std::vector<const Face*>& faces, TriangleMesh& mesh) {
+  static bool differ(const std::vector<const Run*>& runs, std::uint32_t Run::*number) {
+    return std::any_of(runs.begin(), runs.end(), [&](const Run* run) { return run->*number != runs.front()->*number; });
+  }
+
+  /// Fills the value lists and makes room for the triangles. Faces without uv or normals have no value there; where
+  /// only some corners lack one, these use a neutral value behind the others.
+  void collect(const std::vector<const Run*>& runs, TriangleMesh& mesh) {
     has_uv_ = has_normals_ = false;
     bool lacks_uv = false, lacks_normals = false;
-    for (const Face* face : faces) {
+    std::size_t triangles = 0;
+    const auto collect_face = [&](const Face& face) {
       std::uint32_t with_uv = 0, with_normal = 0;
-      for (std::size_t i = face->first_corner; i < face->first_corner + face->corners; ++i) {
-        const Corner& corner = content_.corners[i];
+      for (std::size_t i = face.first_corner; i < face.first_corner + face.corners; ++i) {
+        const Corner corner = content_.corners[i];
         positions_.use(corner.position);
         if (corner.uv != k_none) uv_.use(corner.uv);
         if (corner.normal != k_none) normals_.use(corner.normal);
@@ -409,20 +494,23 @@ class PartAssembler {
       }
       has_uv_ |= with_uv > 0;
       has_normals_ |= with_normal > 0;
-      lacks_uv |= with_uv > 0 && with_uv < face->corners;
-      lacks_normals |= with_normal > 0 && with_normal < face->corners;
-    }
+      lacks_uv |= with_uv > 0 && with_uv < face.corners;
+      lacks_normals |= with_normal > 0 && with_normal < face.corners;
+      triangles += face.corners - 2;
+    };
+    for (const Run* run : runs) content_.faces.each(*run, collect_face);
     mesh.positions = positions_.finish(content_.positions);
     for (Vec3& position : mesh.positions) position = unit_ * position;
-    if (!content_.colors.empty()) {
-      mesh.colors.values = positions_.finish(content_.colors);
-    }
+    if (!content_.colors.empty()) mesh.colors.values = positions_.finish(content_.colors);
     mesh.uv.values = uv_.finish(content_.uv);
     mesh.normals.values = normals_.finish(content_.normals);
     no_uv_ = static_cast<Index>(mesh.uv.values.size());
     no_normal_ = static_cast<Index>(mesh.normals.values.size());
     if (has_uv_ && lacks_uv) mesh.uv.values.emplace_back();
     if (has_normals_ && lacks_normals) mesh.normals.values.emplace_back();
+    mesh.triangles.reserve(triangles);
+    if (has_uv_) mesh.uv.indices.reserve(triangles);
+    if (has_normals_) mesh.normals.indices.reserve(triangles);
   }
 
   void append_face(const Face& face, TriangleMesh& mesh) {
@@ -432,7 +520,7 @@ class PartAssembler {
     for (const auto& triangle : cut(face)) {
       Triangle positions{}, uv{}, normals{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const Corner& corner = content_.corners[face.first_corner + triangle[k]];
+        const Corner corner = content_.corners[face.first_corner + triangle[k]];
         positions[k] = positions_[corner.position];
         uv[k] = corner.uv == k_none ? no_uv_ : uv_[corner.uv];
         normals[k] = corner.normal == k_none ? no_normal_ : normals_[corner.normal];
@@ -445,7 +533,7 @@ class PartAssembler {
 
   bool lacks_all(const Face& face, Index Corner::*index) const {
     for (std::size_t i = face.first_corner; i < face.first_corner + face.corners; ++i)
-      if (content_.corners[i].*index != k_none) return false;
+      if (Corner corner = content_.corners[i]; corner.*index != k_none) return false;
     return true;
   }
 
@@ -472,26 +560,32 @@ void assemble_parts(ObjContent content, const std::filesystem::path& path, const
   content.colors.resize(content.colors.empty() ? 0 : content.positions.size());
   const bool by_object = content.objects.names().size() > 1;
   const auto& names = by_object ? content.objects.names() : content.groups.names();
-  std::vector<std::vector<const Face*>> faces(names.size());
-  for (const Face& face : content.faces) faces[by_object ? face.object : face.group].push_back(&face);
+  std::vector<std::vector<const Run*>> runs(names.size());
+  for (const Run& run : content.faces.runs()) runs[by_object ? run.object : run.group].push_back(&run);
 
   MaterialTable materials(content, path, scene);
   const bool has_materials = content.materials.names().size() > 1;
   PartAssembler assembler(content, file, unit);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (faces[i].empty()) continue;
+    if (runs[i].empty()) continue;
     std::map<std::uint32_t, std::uint32_t> slots;
     std::vector<std::uint32_t> part_materials;
-    for (const Face* face : faces[i]) {
-      const auto [slot, is_new] = slots.try_emplace(face->material, static_cast<std::uint32_t>(slots.size()));
-      if (is_new && has_materials)
-        part_materials.push_back(materials.number(content.materials.names()[face->material]));
+    for (const Run* run : runs[i]) {
+      const auto [slot, is_new] = slots.try_emplace(run->material, static_cast<std::uint32_t>(slots.size()));
+      if (is_new && has_materials) part_materials.push_back(materials.number(content.materials.names()[run->material]));
     }
-    Part part = assembler.assemble(faces[i], slots);
+    Part part = assembler.assemble(runs[i], slots);
     part.name = names[i];
     part.materials = std::move(part_materials);
     scene.parts.push_back(std::move(part));
   }
+}
+
+/// The content without the text.
+ObjContent parse_file(const std::filesystem::path& path, const std::string& file, Scene& scene) {
+  const std::string text = read_file(path);
+  if (text.empty()) throw InvalidInput(file + ": is empty");
+  return ObjParser(text, file, scene).parse();
 }
 
 }  // namespace
@@ -499,9 +593,7 @@ void assemble_parts(ObjContent content, const std::filesystem::path& path, const
 Scene read_obj(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string file = path.string();
   Scene scene = unitless_scene("OBJ", options, UpAxis::y);
-  const std::string text = read_file(path);
-  if (text.empty()) throw InvalidInput(file + ": is empty");
-  ObjContent content = ObjParser(text, file, scene).parse();
+  ObjContent content = parse_file(path, file, scene);
   if (content.positions.empty()) throw InvalidInput(file + ": holds no vertices; is it an OBJ file?");
   check_indices(content, file);
   assemble_parts(std::move(content), path, file, scene.millimetres_per_unit, scene);

@@ -88,7 +88,7 @@ std::vector<Works> grouped(const std::vector<SurfaceWork>& works, const SplitOpt
   return jobs;
 }
 
-BakeJob write_job(const fs::path& folder, std::size_t number, const Works& works) {
+BakeJob write_job(const fs::path& folder, std::size_t number, const PreparedBake& prepared, const Works& works) {
   BakeJob job;
   job.id = fmt::format("{:05}-{}", number, plain_name(works.front()->surface->label));
   std::vector<SurfaceInput> inputs;
@@ -96,7 +96,7 @@ BakeJob write_job(const fs::path& folder, std::size_t number, const Works& works
     const PartSurface& surface = *work->surface;
     job.surfaces.push_back({surface.part, surface.slot, surface.label});
     job.triangles += surface.triangles.size();
-    inputs.push_back(work->input);
+    inputs.push_back(prepared.input_of(*work));
   }
   job.cost_seconds = estimated_seconds(job.triangles);
   const fs::path path = input_of(folder, job.id);
@@ -150,7 +150,7 @@ SplitResult split_bake(const fs::path& input, const fs::path& folder, const Mate
   const PreparedBake prepared = prepare_file(input, rules, options, result.way, progress);
   std::set<std::uint32_t> parts;
   for (const Works& works : grouped(prepared.works, split)) {
-    result.jobs.push_back(write_job(folder, result.jobs.size() + 1, works));
+    result.jobs.push_back(write_job(folder, result.jobs.size() + 1, prepared, works));
     for (const SurfaceWork* work : works) parts.insert(work->surface->part);
     result.surfaces += works.size();
   }

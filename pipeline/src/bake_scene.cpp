@@ -5,12 +5,14 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "bake_solid.hpp"
 #include "papilla/core/bounds.hpp"
@@ -296,37 +298,55 @@ std::map<std::string, Grain> make_grains(const BakePlan& plan, GrainMaker& maker
   return grains;
 }
 
-/// Puts the parts with grain together again from their surfaces.
-void reassemble(Scene& scene, const std::vector<PartSurface>& surfaces, std::vector<SurfaceWork>& works) {
-  std::map<std::uint32_t, std::vector<SurfaceWork*>> by_part;
-  for (SurfaceWork& work : works)
-    if (runs(*work.surface, Stage::unwrap)) by_part[work.surface->part].push_back(&work);
-  for (auto& [number, changed] : by_part) {
-    Part& part = scene.parts[number];
-    TriangleMesh mesh;
-    for (const PartSurface& surface : surfaces) {
-      if (surface.part != number) continue;
-      const auto work =
-          std::find_if(changed.begin(), changed.end(), [&](const SurfaceWork* w) { return w->surface == &surface; });
-      append_mesh(mesh, work != changed.end() ? (*work)->output.mesh : extract_triangles(part.mesh, surface.triangles));
-    }
-    part.mesh = std::move(mesh);
+/// A part whose surfaces are baked one by one, and put together again.
+struct PartWork {
+  std::vector<const PartSurface*> surfaces;  ///< All of the part, in order.
+  std::vector<SurfaceWork*> works;
+  std::atomic<std::size_t> unfinished = 0;
+};
+
+std::map<std::uint32_t, PartWork> parts_of(const std::vector<PartSurface>& surfaces, std::vector<SurfaceWork>& works) {
+  std::map<std::uint32_t, PartWork> parts;
+  for (SurfaceWork& work : works) {
+    PartWork& part = parts[work.surface->part];
+    part.works.push_back(&work);
+    ++part.unfinished;
   }
+  for (const PartSurface& surface : surfaces)
+    if (const auto part = parts.find(surface.part); part != parts.end()) part->second.surfaces.push_back(&surface);
+  return parts;
+}
+
+/// Puts a part together again from its surfaces, if one has new uv.
+void reassemble(Part& part, PartWork& parted) {
+  const auto is_new = [](const SurfaceWork* work) { return runs(*work->surface, Stage::unwrap); };
+  if (std::none_of(parted.works.begin(), parted.works.end(), is_new)) return;
+  TriangleMesh mesh;
+  for (const PartSurface* surface : parted.surfaces) {
+    const auto work = std::find_if(parted.works.begin(), parted.works.end(),
+                                   [&](const SurfaceWork* w) { return w->surface == surface && is_new(w); });
+    if (work == parted.works.end())
+      append_mesh(mesh, extract_triangles(part.mesh, surface->triangles));
+    else
+      append_mesh(mesh, std::exchange((*work)->output.mesh, {}));
+  }
+  part.mesh = std::move(mesh);
 }
 
 /// Finds surfaces that get the same new uv, bit for bit.
-void find_equal(std::vector<SurfaceWork>& works) {
+void find_equal(const Scene& scene, std::vector<SurfaceWork>& works) {
   std::map<std::tuple<const MaterialRule*, std::size_t, double>, std::vector<const SurfaceWork*>> known;
   for (SurfaceWork& work : works) {
     if (!runs(*work.surface, Stage::unwrap)) continue;
     // Equal parts of different names may be meant to differ.
     if (work.rule->unwrap_options && !named_parts(*work.rule->unwrap_options).empty()) continue;
+    const TriangleMesh mesh = surface_mesh(scene, *work.surface);
     double sum = 0;
-    for (const Vec3& p : work.input.mesh.positions) sum += p.x + 2 * p.y + 3 * p.z;
-    std::vector<const SurfaceWork*>& candidates = known[{work.rule, work.input.mesh.triangles.size(), sum}];
-    const auto equal = std::find_if(candidates.begin(), candidates.end(), [&](const SurfaceWork* other) {
-      return other->input.mesh.positions == work.input.mesh.positions &&
-             other->input.mesh.triangles == work.input.mesh.triangles;
+    for (const Vec3& p : mesh.positions) sum += p.x + 2 * p.y + 3 * p.z;
+    std::vector<const SurfaceWork*>& candidates = known[{work.rule, mesh.triangles.size(), sum}];
+    const auto equal = std::find_if(candidates.begin(), candidates.end(), [&](const SurfaceWork* candidate) {
+      const TriangleMesh other = surface_mesh(scene, *candidate->surface);
+      return other.positions == mesh.positions && other.triangles == mesh.triangles;
     });
     if (equal == candidates.end())
       candidates.push_back(&work);
@@ -365,17 +385,31 @@ void take_over(const SurfaceWork& source, SurfaceWork& work) {
   work.output.report.same_as = source.surface->label;
 }
 
-/// bake_surface() of all that have no equal.
-void bake_surfaces(std::vector<SurfaceWork>& works, const ProgressCallback& progress) {
+void drop_maps(BakedSurface& report) {
+  report.mesh = TriangleMesh();
+  report.distortion.per_triangle = std::vector<TriangleDistortion>();
+}
+
+/// bake_surface() of all that have no equal. When written anew, a part whose surfaces are done takes them at once.
+void bake_surfaces(PreparedBake& prepared, const BakeOptions& options, const ProgressCallback& progress) {
+  std::vector<SurfaceWork>& works = prepared.works;
+  std::map<std::uint32_t, PartWork> parts = parts_of(prepared.result.plan.surfaces, works);
   double triangles = 0;
   for (const SurfaceWork& work : works) triangles += static_cast<double>(work.surface->triangles.size());
   SharedProgress done(progress, "surfaces", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
     SurfaceWork& work = works[i];
     WorkProgress worked(done, static_cast<double>(work.surface->triangles.size()));
-    work.input.options.method.progress = worked.callback();
-    if (work.equal_to == nullptr) work.output = bake_surface(std::move(work.input));
+    if (work.equal_to == nullptr) {
+      SurfaceInput input = prepared.input_of(work);
+      input.options.method.progress = worked.callback();
+      work.output = bake_surface(std::move(input));
+      if (!options.surface_maps) drop_maps(work.output.report);
+    }
     name_report(*work.surface, work.output.report);
+    PartWork& part = parts.at(work.surface->part);
+    if (--part.unfinished == 0 && !options.plan.in_place)
+      reassemble(prepared.result.scene.parts[work.surface->part], part);
     worked.reach(1);
   });
 }
@@ -444,6 +478,11 @@ RepairResult repair_of(const std::vector<BakedSurface>& surfaces) {
   return total_repair(repaired);
 }
 
+SurfaceInput PreparedBake::input_of(const SurfaceWork& work) const {
+  return surface_input(*work.surface, *work.rule, surface_mesh(result.scene, *work.surface),
+                       result.grains.at(work.surface->material), context, unwrap);
+}
+
 PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
                           const ProgressCallback& progress) {
   PreparedBake prepared;
@@ -460,7 +499,7 @@ PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions
   result.seconds = {{"sides", result.plan.sides.seconds},
                     {"leave_out", result.plan.perception_seconds},
                     {"simplify", result.plan.simplify_seconds}};
-  const PartContext context = unwrap_context(result.scene, {});
+  prepared.context = unwrap_context(result.scene, {});
   leave_out(result.scene, result.plan.perception);
   maker.finish_by(options.unwrap.method.deadline.earlier_by(to_finish));
   result.grains = make_grains(result.plan, maker, progress);
@@ -473,19 +512,17 @@ PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions
   double triangles = 0;
   for (const PartSurface& surface : surfaces)
     if (runs(surface, Stage::measure)) triangles += static_cast<double>(surface.triangles.size());
-  UnwrapOptions in_time = options.unwrap;
-  in_time.method.deadline = options.unwrap.method.deadline.earlier_by(k_seconds_to_finish * triangles);
+  prepared.unwrap = options.unwrap;
+  prepared.unwrap.method.deadline = options.unwrap.method.deadline.earlier_by(k_seconds_to_finish * triangles);
   for (const PartSurface& surface : surfaces) {
     if (!runs(surface, Stage::measure)) continue;
     SurfaceWork& work = prepared.works.emplace_back();
     work.surface = &surface;
     work.rule = &rules.materials.at(surface.material);
-    work.input = surface_input(surface, *work.rule, surface_mesh(result.scene, surface),
-                               result.grains.at(surface.material), context, in_time);
   }
   for (std::string& warning : warn_of_unmatched_parts(prepared.works))
     result.scene.warnings.push_back(std::move(warning));
-  if (options.plan.in_place && !options.plan.keep_copies) find_equal(prepared.works);
+  if (options.plan.in_place && !options.plan.keep_copies) find_equal(result.scene, prepared.works);
   return prepared;
 }
 
@@ -498,7 +535,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
                       const ProgressCallback& progress) {
   PreparedBake prepared = prepare_bake(std::move(scene), rules, options, maker, progress);
-  BakeResult result = std::move(prepared.result);
+  BakeResult& result = prepared.result;
   std::vector<SurfaceWork>& works = prepared.works;
   const std::vector<PartSurface>& surfaces = result.plan.surfaces;
   for (const PartSurface& surface : surfaces) {
@@ -507,7 +544,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
     if (!picture.empty())
       result.environments[surface.material] = environment_json(read_environment(picture, k_material_environment_width));
   }
-  bake_surfaces(works, progress);
+  bake_surfaces(prepared, options, progress);
 
   if (options.plan.in_place) {
     for (SurfaceWork& work : works)
@@ -515,9 +552,8 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
     for (SurfaceWork& work : works)
       if (runs(*work.surface, Stage::unwrap)) work.output.report.uv = std::move(work.output.mesh.uv);
     finish(works, result);
-    return result;
+    return std::move(result);
   }
-  reassemble(result.scene, surfaces, works);
   SceneMaterials materials(result, rules);
   std::set<const PartSurface*> without_back;
   for (const SurfaceWork& work : works)
@@ -538,7 +574,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   make_names_unique(result.scene.materials);
   drop_unused_textures(result.scene);
   finish(works, result);
-  return result;
+  return std::move(result);
 }
 
 }  // namespace papilla

@@ -15,7 +15,6 @@ namespace papilla {
 struct SurfaceWork {
   const PartSurface* surface = nullptr;
   const MaterialRule* rule = nullptr;
-  SurfaceInput input;
   SurfaceOutput output;
   const SurfaceWork* equal_to = nullptr;  ///< In place: an earlier one of the same mesh and rule; gets uv for both.
 };
@@ -24,6 +23,10 @@ struct SurfaceWork {
 struct PreparedBake {
   BakeResult result;               ///< Plan, scene and grains.
   std::vector<SurfaceWork> works;  ///< Their pointers lead into the plan and the rules.
+  PartContext context;             ///< Of all parts.
+  UnwrapOptions unwrap;            ///< Of all surfaces.
+
+  SurfaceInput input_of(const SurfaceWork& work) const;
 };
 
 /// The first half of bake_scene(): plan_bake() and the grains.

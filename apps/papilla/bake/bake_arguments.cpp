@@ -116,7 +116,7 @@ void BakeOutputs::add_to(CLI::App& verb) {
 Json write_bake(const BakeArguments& arguments, const BakeOutputs& options, BakeFileOptions wanted,
                 VerbContext& context) {
   if (!is_gltf_file(options.output)) throw UsageError("--output: '" + options.output + "' must end in .glb or .gltf");
-  wanted.for_pictures = options.pictures;
+  wanted.for_pictures = wanted.bake.surface_maps = options.pictures;
   if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
   const Stopwatch total;
   const Materials rules = arguments.rules();

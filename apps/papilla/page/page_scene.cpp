@@ -80,7 +80,7 @@ ShownPart show_part(const Scene& scene, const Part& part, double keep) {
   for (const std::uint32_t m : part.materials)
     needs_uv1.push_back(uv != &part.mesh.uv1 && m < scene.materials.size() && lies_on_uv1(scene.materials[m]));
   shown.meshes = page_meshes(part.mesh, uv ? *uv : none, needs_uv1, shown.distortion, keep);
-  shown.distortion.per_triangle = {};
+  shown.distortion.per_triangle = std::vector<TriangleDistortion>();
   return shown;
 }
 

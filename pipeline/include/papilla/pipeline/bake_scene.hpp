@@ -28,6 +28,7 @@ struct BakeOptions {
   UnwrapOptions unwrap;
   RecipeLibrary library = RecipeLibrary::builtin();  ///< What the rules' recipes may name.
   std::set<PartSlot> without_grain;                  ///< Surfaces of the plan that stay as they came.
+  bool surface_maps = true;  ///< BakedSurface::mesh and its distortion per triangle, for write_bake_pictures().
 };
 
 /// A surface with grain, as it was baked.
@@ -43,8 +44,8 @@ struct BakedSurface {
   SeamVisibility seams;           ///< For the grain's tile, a grain being an eighth of it.
   std::vector<std::string> notes;
   std::optional<RepairResult> repaired;  ///< Without its mesh; when it was.
-  DistortionReport distortion;
-  TriangleMesh mesh;         ///< The surface with uv in millimetres.
+  DistortionReport distortion;           ///< Per triangle with BakeOptions::surface_maps.
+  TriangleMesh mesh;         ///< The surface with uv in millimetres; empty without BakeOptions::surface_maps.
   CornerAttribute<Vec2> uv;  ///< In place: the new uv in repeats of the grain; empty when its own stay.
 };
 
