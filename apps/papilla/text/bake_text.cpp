@@ -152,6 +152,7 @@ std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules
 }
 
 std::string bake_table(const BakeResult& result) {
+  constexpr std::size_t k_listed = 200;
   std::size_t width = 4, material_width = 8;
   for (const BakedSurface& surface : result.surfaces) {
     width = std::clamp(surface.label.size(), width, std::size_t{64});
@@ -160,7 +161,8 @@ std::string bake_table(const BakeResult& result) {
   std::string out =
       shown_format("{:<{}}  {:<{}}  {:<12}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
                    material_width, "unwrap", "charts", "triangles", "sym.D", "angle°", "flipped");
-  for (const BakedSurface& surface : result.surfaces) {
+  for (std::size_t i = 0; i < std::min(result.surfaces.size(), k_listed); ++i) {
+    const BakedSurface& surface = result.surfaces[i];
     out += shown_format("{:<{}}  {:<{}}  {:<12}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
                         surface.material, material_width, surface.method, surface.distortion.charts,
                         surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
@@ -169,6 +171,8 @@ std::string bake_table(const BakeResult& result) {
       out += shown_format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(),
                           surface.notes.front());
   }
+  if (result.surfaces.size() > k_listed)
+    out += shown_format("and {} surfaces more: --json lists all\n", result.surfaces.size() - k_listed);
   for (const auto& [name, grain] : result.grains) out += slope_line(name, grain.height);
   out += repair_numbers_text(repair_of(result.surfaces));
   if (result.surfaces.empty()) out = surfaces_without_grain(result.plan.surfaces);

@@ -37,6 +37,8 @@ std::string reasons_text(const PartSides& part, bool ambiguous) {
   return text;
 }
 
+constexpr std::size_t k_listed = 50;
+
 std::string count_text(std::size_t count, std::size_t all) {
   return all == 1 ? "" : shown_format(" ({} of {} pieces)", count, all);
 }
@@ -60,7 +62,9 @@ std::string sides_text(const SceneSides& sides, bool turned) {
                    sides.open_components, sides.parts.size(), viewpoint_text(sides), sides.facing_away,
                    turned ? done_text(sides.facing_away, left_facing_away, "turned") : "", sides.ambiguous,
                    turned ? done_text(sides.ambiguous, left_ambiguous, "double sided") : "");
+  std::size_t parts = 0;
   for (const PartSides& part : sides.parts) {
+    if (++parts > k_listed) continue;
     const auto add = [&](const char* done, std::size_t count, bool ambiguous) {
       if (count > 0)
         text += shown_format("  {}: {}{}: {}\n", done, part.part, count_text(count, part.open_components),
@@ -74,6 +78,7 @@ std::string sides_text(const SceneSides& sides, bool turned) {
     add(turned ? "double sided" : "no side", part.ambiguous - part.left_ambiguous, true);
     add("left without a side, it has no relief", part.left_ambiguous, true);
   }
+  if (parts > k_listed) text += shown_format("  and {} parts more: --json lists all\n", parts - k_listed);
   return text;
 }
 
