@@ -23,8 +23,8 @@ def main(picture, quick):
     rules = papilla.Materials(
         materials={
             "grain": {
-                "name": "grain", "texture": "grain:leather", "size_mm": [20, 20], "stiffness": 900, "damping": 0.3,
-                "static_friction": 0.4, "dynamic_friction": 0.3, "height": {"depth_mm": 0.2},
+                "name": "grain", "texture": "grain:leather", "recipe": "grain:leather", "size_mm": [20, 20],
+                "stiffness": 900, "damping": 0.3, "static_friction": 0.4, "dynamic_friction": 0.3, "height": {"depth_mm": 0.2},
             }
         },
         assign=[{"material": "grain"}],
@@ -43,7 +43,7 @@ def main(picture, quick):
         top.plot(rows["t"], rows["force"][:, k], label=f"force along {name}", linewidth=0.8)
     top.plot(rows["t"], np.linalg.norm(rows["force"], axis=1), "k", label="its size", linewidth=0.8)
     top.set(ylabel="N")
-    top.legend(fontsize=8, ncol=4)
+    top.legend(fontsize=8, ncol=4, loc="upper left")
     for name in ("hand", "probe", "proxy"):
         bottom.plot(rows["t"], 1e3 * (rows[name] @ up_of(rows)), label=name, linewidth=0.8)
     bottom.set(xlabel="s", ylabel="mm above the plate")

@@ -60,7 +60,7 @@ class Types:
         if name in ROWS:
             return f"NDArray[{ROWS[name]}]"
         if name == "std::filesystem::path":
-            return "str | os.PathLike[str]"
+            return "pathlib.Path | None"
         if name == "Deadline":
             return "float | None"
         if name in self.enums or name in self.records or name in fields.CLASSES:
@@ -71,7 +71,7 @@ class Types:
             return "SourcedNumber" if sourced.group(1) == "double" else "SourcedText"
         array = re.fullmatch(r"std::array<(.*), ([\w.:()]+)>", name) or re.fullmatch(r"(.*)\[(\w+)\]", name)
         if array:
-            return self._many(array.group(1), "list[%s]")
+            return self._many(array.group(1), "tuple[%s, ...]")
         template = re.fullmatch(r"std::(optional|vector|set|pair|map|variant)<(.*)>", name)
         if not template:
             return None
@@ -83,15 +83,15 @@ class Types:
             case "optional":
                 return arguments[0] if arguments[0].endswith("| None") else arguments[0] + " | None"
             case "vector":
-                return self._many(template.group(2), "tuple[%s, ...]" if first in self.records else "list[%s]")
+                return self._many(template.group(2), "tuple[%s, ...]")
             case "set":
-                return f"set[{arguments[0]}]" if first not in self.records else None
+                return f"frozenset[{arguments[0]}]" if first not in self.records else None
             case "pair":
                 return f"tuple[{arguments[0]}, {arguments[1]}]"
             case "variant":
                 return " | ".join(arguments)
             case "map":
-                return f"dict[{arguments[0]}, {arguments[1]}]"
+                return f"Mapping[{arguments[0]}, {arguments[1]}]"
         return None
 
     def _many(self, element, form):
@@ -101,7 +101,7 @@ class Types:
             return "NDArray[np.void]"
         inner = self.annotation(element)
         if inner == "NDArray[np.void]":  # A vector of vectors comes as a copy.
-            inner = f"list[{self.resolved(element)[12:-1]}]"
+            inner = f"tuple[{self.resolved(element)[12:-1]}, ...]"
         return form % inner if inner else None
 
 
@@ -196,9 +196,9 @@ def records_source(source, field):
                 call = "inherited" if inherited else "field"
                 doc = headers.python_text(item.doc)
                 blocks.append(
-                    f'      .{call}<&{record.name}::{item.name}>("{item.name}", "{annotation}", {quoted(doc)})'
+                    f'      .{call}<&{record.name}::{item.name}>("{item.python_name}", "{annotation}", {quoted(doc)})'
                 )
-        blocks[-1] += ";"
+        blocks[-1] += "\n      .done();"
     # Functions of moderate size: compilers take long for large ones.
     parts, current = [], []
     for block in blocks:

@@ -4,6 +4,7 @@
 Reads the form that clang-format gives the headers; it is no general parser of C++.
 """
 import dataclasses
+import keyword
 import re
 
 
@@ -13,6 +14,11 @@ class Field:
     type: str
     default: str
     doc: str
+
+    @property
+    def python_name(self):
+        """Keywords of Python end with _."""
+        return self.name + "_" if keyword.iskeyword(self.name) else self.name
 
 
 @dataclasses.dataclass

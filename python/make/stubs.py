@@ -12,7 +12,8 @@ import sys
 HEAD = """# SPDX-License-Identifier: MIT
 # Written by python/make/stubs.py from the module; do not edit.
 import os
-from collections.abc import Callable, Sequence
+import pathlib
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Optional, Union
 
 import numpy as np
@@ -38,7 +39,9 @@ def text_block(text, indent):
 def settable(annotation):
     """The type that a keyword takes, which is wider than the one that an attribute has."""
     annotation = re.sub(r"NDArray\[[\w.]+\]", "ArrayLike", annotation)
-    return re.sub(r"tuple\[(\w+), \.\.\.\]", r"Sequence[\1 | dict[str, Any]]", annotation)
+    annotation = annotation.replace("pathlib.Path", "str | os.PathLike[str]")
+    annotation = re.sub(r"tuple\[([A-Z]\w+), \.\.\.\]", r"Sequence[\1 | dict[str, Any]]", annotation)
+    return re.sub(r"tuple\[(.*), \.\.\.\]", r"Sequence[\1]", annotation).replace("frozenset", "set")
 
 
 def keywords(fields):
@@ -79,8 +82,10 @@ def bound_class(name, cls):
             if value.__doc__ and not value.__doc__.startswith("("):
                 lines.append(text_block(value.__doc__.strip(), 4))
         elif callable(value) and (not member.startswith("_") or member == "__init__"):
-            first, _, doc = (value.__doc__ or "").partition("\n")
+            first, _, doc = (value.__doc__ or "").strip().partition("\n")
             match = re.match(r"\w+\((.*)\) -> (.*)", first)
+            if not match:  # Nothing makes one but functions.
+                continue
             arguments = re.sub(r"^self: [^,]*", "self", match.group(1))
             lines.append(f"    def {member}({shown_types(arguments)}) -> {shown_types(match.group(2))}:")
             lines.append(text_block(doc.strip(), 8) if doc.strip() else "        ...")

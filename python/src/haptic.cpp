@@ -115,7 +115,6 @@ void add_surface(py::module_& module) {
       module, "ContactSurface",
       "The obstacle of a haptic scene: triangles with relief, indexed for queries at 1 kHz. Metres, in the frame of "
       "the scene. Made by contact_surface().");
-  type.attr("__module__") = "papilla";
   type.def_property_readonly("triangles", &ContactSurface::triangles, "Number of triangles that are kept.");
   type.def_property_readonly("skipped_triangles", &ContactSurface::skipped_triangles);
   type.def_property_readonly("material_count", &ContactSurface::material_count);
@@ -156,7 +155,6 @@ void add_surface(py::module_& module) {
 void add_trajectory(py::module_& module) {
   py::class_<Trajectory> type(module, "Trajectory",
                               "Position of the hand over time: linear between samples, constant before and after.");
-  type.attr("__module__") = "papilla";
   type.def(py::init([](const py::object& times, const py::object& positions) {
              return trajectory_of(vector_of<double>(times, "Trajectory: t"),
                                   vector_of<Vec3>(positions, "Trajectory: positions"));
@@ -189,7 +187,6 @@ void add_tick(py::module_& module) {
                         "From positions to forces, one a tick: proxy, force model, safety. Forces fade in from the "
                         "first contact on and change no faster than the limits let them; without limits they are "
                         "those of a device of 3.3 N.");
-  type.attr("__module__") = "papilla";
   type.def(py::init([](const ContactSurface& surface, const std::optional<SafetyLimits>& limits, double rate_hz) {
              if (!(rate_hz > 0)) throw UsageError("HapticTick: rate_hz must be positive");
              return Tick(surface, limits.value_or(safety_limits(SafetyLimits{}.max_force_n)), rate_hz);
@@ -242,7 +239,8 @@ void add_haptic(py::module_& module) {
       .field<&Simulation::stability_clamps>("stability_clamps", "tuple[StabilityClamp, ...]",
                                             "Materials whose stiffness or damping the device can't show.")
       .field<&Simulation::amplitude_clamps>("amplitude_clamps", "tuple[AmplitudeClamp, ...]",
-                                            "Materials whose stimulus is too strong for the device.");
+                                            "Materials whose stimulus is too strong for the device.")
+      .done();
   define<HapticSceneOptions>(module, "load_haptic_scene(path: str | os.PathLike[str]) -> HapticScene",
                              docs::load_haptic_scene,
                              [](const std::filesystem::path& path, const HapticSceneOptions& options) {

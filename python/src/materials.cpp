@@ -16,7 +16,6 @@ void add_library(py::module_& module) {
   py::class_<MaterialLibrary> type(module, "MaterialLibrary",
                                    "A folder of materials of interiors, a JSON file each. Without a folder: the one "
                                    "that PAPILLA_MATERIAL_LIBRARY names, or that was installed.");
-  type.attr("__module__") = "papilla";
   type.def(py::init([](const std::optional<std::filesystem::path>& folder) {
              return MaterialLibrary(folder ? *folder : find_material_library());
            }),
@@ -35,12 +34,14 @@ void add_sourced_values(py::module_& module) {
   Record<Sourced<double>>(module, "SourcedNumber", "A number of a material and where it comes from.")
       .field<&Sourced<double>::value>("value", "float", "")
       .field<&Sourced<double>::source>("source", "str", "A key of LibraryMaterial.sources; empty: estimated.")
-      .field<&Sourced<double>::note>("note", "str", "Which table, what was measured, how it follows; may be empty.");
+      .field<&Sourced<double>::note>("note", "str", "Which table, what was measured, how it follows; may be empty.")
+      .done();
   Record<Sourced<std::string>>(module, "SourcedText", "A text of a material and where it comes from.")
       .field<&Sourced<std::string>::value>("value", "str", "")
       .field<&Sourced<std::string>::source>("source", "str", "A key of LibraryMaterial.sources; empty: estimated.")
       .field<&Sourced<std::string>::note>("note", "str",
-                                          "Which table, what was measured, how it follows; may be empty.");
+                                          "Which table, what was measured, how it follows; may be empty.")
+      .done();
 }
 
 void add_materials(py::module_& module) {

@@ -23,6 +23,9 @@ void set_threads(std::size_t count) {
 
 PYBIND11_MODULE(_papilla, module) {
   using namespace papilla::python;
+  // Classes and functions belong to the package, wherever they are compiled.
+  const pybind11::object own_name = module.attr("__name__");
+  module.attr("__name__") = "papilla";
   module.attr("__version__") = papilla::version();
   module.attr("choices") = pybind11::dict();
   for (const char* list : {"_choice_docs", "_records", "_functions"}) module.attr(list) = pybind11::dict();
@@ -51,4 +54,5 @@ PYBIND11_MODULE(_papilla, module) {
   add_materials(module);
   add_pipeline(module);
   add_haptic(module);
+  module.attr("__name__") = own_name;
 }

@@ -53,7 +53,6 @@ void fill(Image& image, py::handle given, py::ssize_t channels, const char* name
 template <class Image>
 py::class_<Image> add_picture(py::module_& module, const char* name, const char* doc, py::ssize_t channels) {
   py::class_<Image> type(module, name, py::buffer_protocol(), doc);
-  type.attr("__module__") = "papilla";
   type.def_buffer([channels](Image& image) {
     const auto sides = sides_of(image, channels);
     std::vector<py::ssize_t> strides(sides.size());

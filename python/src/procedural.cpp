@@ -39,7 +39,6 @@ void add_library(py::module_& module) {
   py::class_<RecipeLibrary> type(module, "RecipeLibrary",
                                  "Recipes by name, and lists of colours by name: by default those that come with the "
                                  "program. The form of library files is in docs/procedural.md.");
-  type.attr("__module__") = "papilla";
   type.def(py::init([] { return RecipeLibrary::builtin(); }));
   type.def("add", &RecipeLibrary::add, py::arg("name"), py::arg("recipe"),
            "Raises InvalidInput when the name is none or taken.");
@@ -61,7 +60,6 @@ void add_compiled(py::module_& module) {
   py::class_<ProceduralTexture> type(
       module, "ProceduralTexture",
       "A recipe, compiled: formulas are bytecode with constants folded, names are resolved.");
-  type.attr("__module__") = "papilla";
   type.def_property_readonly("depends_on_normal", &ProceduralTexture::depends_on_normal);
   type.def_property_readonly("depends_on_position", &ProceduralTexture::depends_on_position);
   type.def_property_readonly("depends_on_sky", &ProceduralTexture::depends_on_sky);

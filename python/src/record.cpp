@@ -17,7 +17,7 @@ std::string short_text(py::handle value) {
     }
     return "<array " + py::str(array.attr("shape")).cast<std::string>() + ">";
   }
-  if (py::isinstance<py::tuple>(value) || py::isinstance<py::list>(value) || py::isinstance<py::dict>(value)) {
+  if (py::isinstance<py::tuple>(value) || PyMapping_Check(value.ptr())) {
     const std::size_t count = py::len(value);
     if (count > 4) return "<" + type_name(value) + " of " + std::to_string(count) + ">";
   }
@@ -106,6 +106,13 @@ void throw_unknown_choice(const char* type, const std::string& name, const std::
   std::string all;
   for (const std::string_view one : known) all += (all.empty() ? "" : ", ") + std::string(one);
   throw UsageError("there is no " + std::string(type) + " '" + name + "'; there are: " + all);
+}
+
+py::object read_only(const py::object& copy) {
+  if (py::isinstance<py::list>(copy)) return py::tuple(copy);
+  if (py::isinstance<py::set>(copy)) return py::frozenset(copy);
+  if (py::isinstance<py::dict>(copy)) return py::module_::import("types").attr("MappingProxyType")(copy);
+  return copy;
 }
 
 void throw_wrong_type(py::handle given, const std::string& place, const std::string& wanted) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -144,6 +145,9 @@ py::array structured_array(py::handle given, const py::dtype& dtype, const std::
 
 [[noreturn]] void throw_wrong_type(py::handle given, const std::string& place, const std::string& wanted);
 
+/// A copy of a container so that nobody changes it in vain: lists as tuples, sets frozen, dictionaries as proxies.
+py::object read_only(const py::object& copy);
+
 /// A copy of an object of a class that is bound by hand.
 template <BoundClass T>
 T copy_of_class(py::handle given, const std::string& place) {
@@ -174,6 +178,8 @@ template <class T>
 py::object to_python(T& value, py::handle owner) {
   if constexpr (std::is_same_v<T, Deadline>) {
     return value.never() ? py::none() : py::object(py::float_(value.left()));
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    return value.empty() ? py::none() : py::cast(value);
   } else if constexpr (Row<T>) {
     return view_of_one(value, owner);
   } else if constexpr (RecordType<T> || BoundClass<T>) {
@@ -196,7 +202,7 @@ py::object to_python(T& value, py::handle owner) {
       auto copy = key;
       elements[to_python(copy, owner)] = py::cast(&element, py::return_value_policy::reference_internal, storage);
     }
-    return elements;
+    return read_only(elements);
   } else if constexpr (RecordOptional<T>) {
     if (!value) return py::none();
     return py::cast(&*value, py::return_value_policy::reference_internal, storage_at(&value, typeid(T), owner));
@@ -205,7 +211,7 @@ py::object to_python(T& value, py::handle owner) {
     for (auto& element : value) elements.append(to_python(element, owner));
     return py::tuple(elements);
   } else {
-    return py::cast(value);
+    return read_only(py::cast(value));
   }
 }
 
@@ -213,6 +219,12 @@ template <class T>
 void from_python(T& value, py::handle given, const std::string& place) {
   if constexpr (std::is_same_v<T, Deadline>) {
     value = given.is_none() ? Deadline() : Deadline(given.cast<double>());
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    try {
+      value = given.is_none() ? T() : given.cast<T>();
+    } catch (const py::cast_error&) {
+      throw_wrong_type(given, place, "a path");
+    }
   } else if constexpr (std::is_same_v<T, std::string_view>) {
     throw UsageError(place + ": can only be read");
   } else if constexpr (BoundClass<T>) {
@@ -243,9 +255,9 @@ void from_python(T& value, py::handle given, const std::string& place) {
     retire(value);
     value = std::move(values);
   } else if constexpr (RecordMap<T>) {
-    if (!py::isinstance<py::dict>(given)) throw_wrong_type(given, place, "dict");
+    if (!PyMapping_Check(given.ptr())) throw_wrong_type(given, place, "dict");
     T values;
-    for (const auto& [key, element] : py::reinterpret_borrow<py::dict>(given)) {
+    for (const auto& [key, element] : py::dict(py::reinterpret_borrow<py::object>(given))) {
       typename T::key_type k{};
       from_python(k, key, place);
       record_from(values[k], element, place + "[" + py::str(key).cast<std::string>() + "]");
@@ -310,7 +322,6 @@ class Record {
     entry_.name = name;
     entry_.bytes = sizeof(T);
     entry_.self = [](py::handle self) -> void* { return &self.cast<T&>(); };
-    class_.attr("__module__") = "papilla";
     class_.def(py::init([](const py::kwargs& values) {
       auto made = std::make_unique<T>();
       set_fields(entry_of<T>(), made.get(), values);
@@ -323,9 +334,8 @@ class Record {
           "__deepcopy__", [](const T& self, const py::dict&) { return std::make_unique<T>(self); }, py::arg("memo"));
     }
   }
-  Record(const Record&) = delete;
-  Record& operator=(const Record&) = delete;
-  ~Record() { add_properties(class_, entry_, module_); }
+  /// When all fields are there.
+  void done() { add_properties(class_, entry_, module_); }
 
   template <auto Member>
   Record& field(const char* name, const char* annotation, const char* doc) {
@@ -336,8 +346,6 @@ class Record {
   Record& inherited(const char* name, const char* annotation, const char* doc) {
     return add<Member>(name, annotation, doc, sizeof...(Base) != 0);
   }
-
-  py::class_<T, Base...>& type() { return class_; }
 
  private:
   template <auto Member>

@@ -14,16 +14,19 @@ void add_corner_attributes(py::module_& module) {
                                 "A (u, v) per triangle corner, stored once and indexed, so that it may jump over a "
                                 "seam while positions stay welded. -1 in indices: this triangle has none.")
       .field<&CornerAttribute<Vec2>::values>("values", "NDArray[np.float64]", "Of (n, 2).")
-      .field<&CornerAttribute<Vec2>::indices>("indices", "NDArray[np.int32]", "Of (triangles, 3), or empty.");
+      .field<&CornerAttribute<Vec2>::indices>("indices", "NDArray[np.int32]", "Of (triangles, 3), or empty.")
+      .done();
   Record<CornerAttribute<Vec3>>(module, "CornerVec3",
                                 "A vector per triangle corner, stored once and indexed. -1 in indices: none.")
       .field<&CornerAttribute<Vec3>::values>("values", "NDArray[np.float64]", "Of (n, 3).")
-      .field<&CornerAttribute<Vec3>::indices>("indices", "NDArray[np.int32]", "Of (triangles, 3), or empty.");
+      .field<&CornerAttribute<Vec3>::indices>("indices", "NDArray[np.int32]", "Of (triangles, 3), or empty.")
+      .done();
   Record<CornerAttribute<Color>>(module, "CornerColor",
                                  "A linear RGBA colour per triangle corner, stored once and indexed. -1 in indices: "
                                  "none.")
       .field<&CornerAttribute<Color>::values>("values", "NDArray[np.float32]", "Of (n, 4), in [0, 1].")
-      .field<&CornerAttribute<Color>::indices>("indices", "NDArray[np.int32]", "Of (triangles, 3), or empty.");
+      .field<&CornerAttribute<Color>::indices>("indices", "NDArray[np.int32]", "Of (triangles, 3), or empty.")
+      .done();
 }
 
 void add_scenes(py::module_& module) {

@@ -115,6 +115,18 @@ class ArraysTest(unittest.TestCase):
         self.assertTrue(text.startswith("RepairOptions(weld_mm=0.25, stitch_mm=None,"), text)
         self.assertIn("<array (20, 3)>", repr(self.mesh))
 
+    def test_what_can_not_be_changed_in_place_is_read_only(self):
+        rules = papilla.Materials(materials={"a": {"name": "a"}})
+        rules.materials["a"].stiffness = 700
+        self.assertEqual(rules.materials["a"].stiffness, 700)
+        with self.assertRaises(TypeError):
+            rules.materials["b"] = papilla.MaterialRule()
+        rules.materials = {**rules.materials, "b": {"name": "b"}}
+        self.assertEqual((sorted(rules.materials), rules.materials["a"].stiffness), (["a", "b"], 700))
+        self.assertEqual(papilla.Scene(warnings=["one"]).warnings, ("one",))
+        self.assertIsNone(papilla.SurveyOptions().pictures)
+        self.assertEqual(str(papilla.SurveyOptions(pictures="there").pictures), "there")
+
     def test_many_assignments_take_no_memory(self):
         storage = [self.mesh.positions]
         for _ in range(1000):

@@ -53,9 +53,8 @@ class BakeTest(unittest.TestCase):
         self.assertEqual(result.way.in_place, False)
 
     def test_options_within_options(self):
-        result = self.bake(bake={"unwrap": {"method": {"method": "triplanar"}}}, write={"meshes": "quantize"})
-        self.assertEqual(result.surfaces[0].method, "triplanar")
-        self.program("bake", "cube.obj", "-m", "materials.json", "-o", "program.glb", "--quiet", "--method", "triplanar",
+        self.bake(read={"millimetres_per_unit": 10.0, "up": "y"}, write={"meshes": "quantize"})
+        self.program("bake", "cube.obj", "-m", "materials.json", "-o", "program.glb", "--quiet", "--unit", "cm", "--up", "y",
                      "--compress", "quantize")  # fmt: skip
         self.assertEqual((self.folder / "python.glb").read_bytes(), (self.folder / "program.glb").read_bytes())
 

@@ -31,7 +31,7 @@ class DistortionTest(unittest.TestCase):
     def setUp(self):
         random = np.random.default_rng(7)
         self.V, self.F = shapes.bumps(23, 17, 0.1)
-        self.uv = self.V[:, :2] + 0.6 * random.standard_normal((len(self.V), 2))
+        self.uv = self.V[:, :2] + 2.5 * random.standard_normal((len(self.V), 2))
 
     def test_triangles_have_the_singular_values_of_their_maps(self):
         report = papilla.distortion(self.V, self.F, self.uv, normalize="none")
@@ -113,7 +113,9 @@ class ParameterizeTest(unittest.TestCase):
                 self.assertEqual(uv.indices.shape, F.shape)
                 self.assertTrue(np.isfinite(uv.values).all())
                 report = papilla.distortion(V, F, uv)
-                self.assertLess(report.symmetric_dirichlet.mean, 6 if method != "environment" else np.inf)
+                if method != "environment":  # It is a mirror's image, no map in true size.
+                    self.assertEqual(report.flipped, 0)
+                    self.assertLess(report.symmetric_dirichlet.mean, 7)
 
     def test_a_half_cylinder_unrolls(self):
         V, F, _ = shapes.half_cylinder()
