@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parent
 
 
 def version():
-    return re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+    return re.search(r"project\(papilla VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
 
 
 class CMakeBuild(build_ext):
