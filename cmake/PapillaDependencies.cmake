@@ -43,6 +43,18 @@ if(PAPILLA_BUILD_TOOLKIT)
   find_package(assimp REQUIRED)
   find_package(OpenImageIO REQUIRED)
   pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
+  if(PAPILLA_BUILD_PYTHON AND NOT PAPILLA_SANITIZE)  # The interpreter has no sanitizers.
+    # The system's Python, whose numpy is the package; -DPython_EXECUTABLE names another one.
+    find_program(Python_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
+    find_package(Python QUIET COMPONENTS Interpreter Development.Module NumPy OPTIONAL_COMPONENTS Development.Embed)
+    if(Python_FOUND)
+      find_package(pybind11 QUIET)
+    endif()
+  endif()
+  if(PAPILLA_BUILD_PYTHON AND NOT pybind11_FOUND)
+    message(STATUS "No Python module: that needs pybind11, numpy and Python's headers")
+    set(PAPILLA_BUILD_PYTHON OFF)
+  endif()
   # Debian's target names an OpenCV include directory that need not exist.
   set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
 

@@ -16,6 +16,7 @@ oiiotool --pattern constant:color=1,1,1 1800x1163 3 \
   "$report/uv-seat_cushion.png" --ch R,G,B --resize 0x600 --swap --paste +1327+563 \
   --compression jpeg:90 -d uint8 -o "$out/cockpit.jpg"
 
+PYTHONPATH=$bin/../python MPLBACKEND=Agg /usr/bin/python3 "$make/../../examples/python/distortion_of_methods.py" "$out/python-methods.png"
 cp "$runs/meshing/charts.png" "$out/charts.png"
 cp "$runs/texture/grain/symmetry.png" "$out/symmetry.png"
 cp "$runs/param/evaluate-param-1.svg" "$out/evaluate-param.svg"

@@ -168,10 +168,11 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
   if (options.real_part) tick.follow(*options.real_part);
   const StopAtEnd stop_at_end(device);
   {
-    const Realtime realtime(result);
+    const bool timed = device.is_clock() || options.paced;
+    std::optional<Realtime> realtime;
+    if (timed) realtime.emplace(result);
     LoopClock system;
     LoopClock& clock = options.clock ? *options.clock : system;
-    const bool timed = device.is_clock() || options.paced;
     const double begin = clock.now_s();
     double awake = begin;  // When the last tick began.
     Pacer pacer(clock, period);

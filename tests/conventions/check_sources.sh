@@ -45,7 +45,7 @@ licences() {
 
 # Folders of libraries, and all folders with C++ files.
 readonly libraries=(core cache meshing param texture procedural haptic io study pipeline)
-readonly all_cpp=("${libraries[@]}" apps tests data examples)
+readonly all_cpp=("${libraries[@]}" apps python tests data examples)
 
 readonly gpl_headers=' <(CGAL/|fftw3)'
 readonly heavy_headers=' [<"](CGAL/|OpenMesh/|OpenImageIO/|assimp/|Eigen/|fftw3|ceres/|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
@@ -166,7 +166,10 @@ readonly library_uses='
 <assimp/ assimp libassimp-dev assimp::assimp
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
 <zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB
-<lcms2\.h> lcms2 liblcms2-dev PkgConfig::LCMS'
+<lcms2\.h> lcms2 liblcms2-dev PkgConfig::LCMS
+<pybind11/ pybind11 pybind11-dev pybind11::embed
+<pybind11/numpy python3-numpy
+<pybind11/pybind11 Python python3-dev'
 
 # The same of a program: a pattern of scripts and build files, then its names.
 readonly program_uses='
@@ -195,6 +198,9 @@ munged munge
 snakemake snakemake
 python3 python3
 import.yaml python3-yaml
+matplotlib python3-matplotlib
+setuptools python3-setuptools
+pip.*wheel python3-wheel python3-pip
 check_sources\.sh clang-format'
 
 # The pattern that shows the use of name $2 by table $1.

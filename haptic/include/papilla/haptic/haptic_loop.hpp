@@ -58,7 +58,8 @@ struct LoopResult {
   Histogram wakeup_us;     ///< Lateness of the ticks that the loop slept for; the others are missed deadlines.
   Histogram tick_us;       ///< CPU time of the thread from reading the position to writing the force.
   bool fixed_priority = false, memory_locked = false;
-  std::string realtime_note;  ///< Why one of them was refused; empty when both are true.
+  std::string
+      realtime_note;  ///< Why one of them was refused; empty when both are true, and when the loop is not paced.
   bool device_lost = false;
   ForceGuard::Fault fault = ForceGuard::Fault::none;
 };
@@ -66,10 +67,10 @@ struct LoopResult {
 /// Reads the device, computes, writes, `rate_hz` times a second, until the ticks are done, `stop` is set, the device is
 /// lost or the guard reports a fault; then writes zero force and stops the device, on every way out.
 ///
-/// A device that is a clock paces the loop by its frames; `rate_hz` is then only the length of a tick. Requests
-/// SCHED_FIFO and locked memory and runs without them when refused. Ticks begin at absolute times, so delays don't
-/// accumulate; the loop sleeps until 5 % of a period, at most 50 µs, before a tick and spins for the rest. A tick that
-/// ends after the start of the next one is a missed deadline.
+/// A device that is a clock paces the loop by its frames; `rate_hz` is then only the length of a tick. A loop that is
+/// paced requests SCHED_FIFO and locked memory and runs without them when refused. Ticks begin at absolute times, so
+/// delays don't accumulate; the loop sleeps until 5 % of a period, at most 50 µs, before a tick and spins for the rest.
+/// A tick that ends after the start of the next one is a missed deadline.
 ///
 /// A tick that begins more than a period and `watchdog_s` after the last one follows a pause: the process or the
 /// machine was stopped, suspended, or had no processor. The hand went on meanwhile, so the proxy is put to the newest
