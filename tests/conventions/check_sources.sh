@@ -57,7 +57,7 @@ check_licence_lines() {
       MIT)
         if [[ $file == apps/papilla/* ]]; then breach "$file" "apps/papilla is GPL-3.0-or-later, the file says MIT"; fi ;;
       GPL-3.0-or-later)
-        if [[ $file =~ ^(core|haptic|io/gltf|io/haptic|apps/player)/ ]]; then
+        if [[ $file =~ ^(core|haptic|io/gltf|io/haptic|io/c|apps/player)/ ]]; then
           breach "$file" "this folder is MIT, the file says GPL-3.0-or-later"
         fi ;;
       '') breach "$file" "has no SPDX-License-Identifier in its first three lines" ;;
@@ -75,7 +75,7 @@ check_gpl_users() {
 
 # The player and everything it links: no library but hidapi, tinygltf, and small ones for JSON and the command line.
 check_light_folders() {
-  breach_each "the player side must not include %s" < <(cpp_sources core haptic io/gltf io/haptic apps/player | includes |
+  breach_each "the player side must not include %s" < <(cpp_sources core haptic io/gltf io/haptic io/c apps/player | includes |
     grep -E "$heavy_headers")
 }
 
