@@ -166,7 +166,8 @@ readonly library_uses='
 <assimp/ assimp libassimp-dev assimp::assimp
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
 <zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB
-<lcms2\.h> lcms2 liblcms2-dev PkgConfig::LCMS'
+<lcms2\.h> lcms2 liblcms2-dev PkgConfig::LCMS
+<openxr/ libopenxr-dev'
 
 # The same of a program: a pattern of scripts and build files, then its names.
 readonly program_uses='
@@ -194,6 +195,8 @@ sbatch slurm-client
 munged munge
 snakemake snakemake
 python3 python3
+mcs mono-mcs
+mono mono-runtime
 import.yaml python3-yaml
 check_sources\.sh clang-format'
 
