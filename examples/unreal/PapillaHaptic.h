@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Forces of a glTF file in Unreal. Papilla.Build.cs ships libpapilla.so.1 beside the game; it is loaded when it is asked
-// for, so that a game starts without it. Functions and structs: papilla/io/papilla_haptic.h.
+// Forces of a glTF file in Unreal. Papilla.Build.cs ships libpapilla.so.1 beside the game; it is loaded when it is
+// asked for, so that a game starts without it. Functions and structs: papilla/io/papilla_haptic.h.
 // clang-format off
 #pragma once
 

@@ -189,6 +189,7 @@ Xvfb xvfb
 localedef locales
 qemu-system qemu-system-x86
 cpio cpio
+cpack dpkg-dev file
 slurmctld slurmctld
 slurmd slurmd
 sbatch slurm-client
