@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The components of the install, of which packages are made: every file is in one, and what each must have is there.
 # Usage: cmake -D BUILD_DIR=folder -D WORK_DIR=folder -D TOOLKIT=bool -P components_test.cmake
+cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${WORK_DIR})
 
 function(installed result)
