@@ -14,8 +14,6 @@ set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/packages/finish_tree.cmake)
 
@@ -67,7 +65,9 @@ papilla_package(player papilla-player SECTION graphics SUMMARY "player of glTF f
 papilla_package(library libpapilla1 SECTION libs SUMMARY "forces of the materials of a glTF file"
   TEXT "Library with a C interface that loads a glTF file with haptic tags and"
        "computes the force on a hand that touches it, at 1 kHz.")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/packages/triggers)
+get_target_property(papilla_abi papilla_c SOVERSION)
+file(CONFIGURE OUTPUT shlibs CONTENT "libpapilla @papilla_abi@ libpapilla1 (>= @PROJECT_VERSION@)\n" @ONLY)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/packages/triggers ${CMAKE_CURRENT_BINARY_DIR}/shlibs)
 papilla_package(dev libpapilla-dev SECTION libdevel SUMMARY "development files of Papilla"
   DEPENDS "libpapilla1 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})"
   RECOMMENDS "libdraco-dev, libhidapi-dev, libmd-dev, libmeshoptimizer-dev, libtinygltf-dev, nlohmann-json3-dev"
