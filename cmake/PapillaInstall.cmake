@@ -9,6 +9,6 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/papilla-config-version.cmak
 if(PAPILLA_BUILD_TOOLKIT)
   install(TARGETS papilla_occt papilla_cgal EXPORT papilla-targets)
 endif()
-install(EXPORT papilla-targets NAMESPACE papilla:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/papilla)
+install(EXPORT papilla-targets NAMESPACE papilla:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/papilla COMPONENT dev)
 install(FILES ${CMAKE_BINARY_DIR}/papilla-config.cmake ${CMAKE_BINARY_DIR}/papilla-config-version.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/papilla)
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/papilla COMPONENT dev)

@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   char message[256];
   double position[3], force[3], proxy[3];
   int i, found = 0;
-  papilla_haptic_options options = {0};
+  papilla_haptic_options options = PAPILLA_HAPTIC_OPTIONS_INIT;
   papilla_haptic* haptic;
   if (argc != 5) return 2;
   options.device = "touch";
@@ -25,8 +25,8 @@ int main(int argc, char** argv) {
     papilla_haptic_proxy(haptic, proxy, NULL);
     if (i % 20 == 0) printf("%3d ms  %.3f N  proxy at %.4f m\n", i, force[1], proxy[1]);
   }
-  for (i = 0; papilla_haptic_warning(haptic, (size_t)i) != NULL; ++i)
-    printf("%s\n", papilla_haptic_warning(haptic, (size_t)i));
+  for (i = 0; i < papilla_haptic_warning_count(haptic); ++i)
+    printf("%s\n", papilla_haptic_warning(haptic, (uint32_t)i));
   papilla_haptic_close(haptic);
   return (found & PAPILLA_HAPTIC_CONTACT) != 0 ? 0 : 1;
 }

@@ -25,6 +25,7 @@ void add_verbs(CLI::App& program) {
   add_merge(program);
   add_batch(program);
   add_view(program);
+  add_demo(program);
   add_cache(program);
   add_evaluate(program);
 }

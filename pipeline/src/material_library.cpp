@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "papilla/core/near_name.hpp"
+#include "papilla/pipeline/shared_data.hpp"
 
 namespace papilla {
 namespace {
@@ -173,18 +174,8 @@ Rank rank_of(const FoldedTerms& terms, const Search& search, bool near, bool par
 }  // namespace
 
 fs::path find_material_library() {
-  std::vector<fs::path> places;
   if (const char* named = std::getenv("PAPILLA_MATERIAL_LIBRARY"); named != nullptr && *named != '\0') return named;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) places.push_back(program.parent_path().parent_path() / "share/papilla/materials");
-  places.emplace_back(PAPILLA_INSTALLED_MATERIALS);
-  std::string looked;
-  for (const fs::path& place : places) {
-    if (fs::is_directory(place, error)) return place;
-    looked += (looked.empty() ? "" : ", ") + place.string();
-  }
-  throw IoError("no material library is found: looked for " + looked + "; PAPILLA_MATERIAL_LIBRARY may name one");
+  return find_shared_data("materials", "PAPILLA_MATERIAL_LIBRARY may name one");
 }
 
 MaterialLibrary::MaterialLibrary(fs::path folder) : folder_(std::move(folder)), ids_(ids_in(folder_)) {}

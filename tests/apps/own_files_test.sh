@@ -71,6 +71,7 @@ bake       | scene.glb -m rules.json --library lib.recipes --reach volume.json -
 split      | scene.glb -m rules.json --library lib.recipes -o made | scene.glb rules.json lib.recipes | --json
 batch      | lines.jsonl                                     | lines.jsonl                      | --json
 merge      | jobs                                            | jobs/bake.json jobs/manifest.jsonl scene.glb | --output --json
+demo       | -o made                                         |                                  | --json
 cache      | stats                                           |                                  | --json
 materials  | check own.json                                  | own.json                         | --output --picture --json
 study      | analyse study.json answers.csv                  | study.json answers.csv           | --output --answers --json

@@ -57,7 +57,7 @@ check_licence_lines() {
       MIT)
         if [[ $file == apps/papilla/* ]]; then breach "$file" "apps/papilla is GPL-3.0-or-later, the file says MIT"; fi ;;
       GPL-3.0-or-later)
-        if [[ $file =~ ^(core|haptic|io/gltf|io/haptic|apps/player)/ ]]; then
+        if [[ $file =~ ^(core|haptic|io/gltf|io/haptic|io/c|apps/player)/ ]]; then
           breach "$file" "this folder is MIT, the file says GPL-3.0-or-later"
         fi ;;
       '') breach "$file" "has no SPDX-License-Identifier in its first three lines" ;;
@@ -75,7 +75,7 @@ check_gpl_users() {
 
 # The player and everything it links: no library but hidapi, tinygltf, and small ones for JSON and the command line.
 check_light_folders() {
-  breach_each "the player side must not include %s" < <(cpp_sources core haptic io/gltf io/haptic apps/player | includes |
+  breach_each "the player side must not include %s" < <(cpp_sources core haptic io/gltf io/haptic io/c apps/player | includes |
     grep -E "$heavy_headers")
 }
 
@@ -169,7 +169,8 @@ readonly library_uses='
 <lcms2\.h> lcms2 liblcms2-dev PkgConfig::LCMS
 <pybind11/ pybind11 pybind11-dev pybind11::embed
 <pybind11/numpy python3-numpy
-<pybind11/pybind11 Python python3-dev'
+<pybind11/pybind11 Python python3-dev
+<openxr/ libopenxr-dev'
 
 # The same of a program: a pattern of scripts and build files, then its names.
 readonly program_uses='
@@ -191,12 +192,15 @@ Xvfb xvfb
 localedef locales
 qemu-system qemu-system-x86
 cpio cpio
+cpack dpkg-dev file
 slurmctld slurmctld
 slurmd slurmd
 sbatch slurm-client
 munged munge
 snakemake snakemake
 python3 python3
+mcs mono-mcs
+mono mono-runtime
 import.yaml python3-yaml
 matplotlib python3-matplotlib
 setuptools python3-setuptools

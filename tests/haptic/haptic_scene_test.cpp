@@ -16,7 +16,6 @@
 #include "papilla/haptic/proxy.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/gltf_reader.hpp"
-#include "papilla/io/papilla_haptic.h"
 
 namespace papilla {
 namespace {
@@ -225,75 +224,6 @@ TEST(HapticScene, FollowsTheTextureTransformOfPackers) {
   EXPECT_EQ(packed.warnings[0].warning.code, "uv_transform");
   for (const Vec2 uv : {Vec2{0.3, 0.2}, Vec2{1.7, -0.4}})
     EXPECT_NEAR(packed.heights[0].sample((1.0 / 16) * uv).height_m, plain.heights[0].sample(uv).height_m, 1e-12);
-}
-
-TEST(CInterface, FeelsAPlate) {
-  const File file(testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
-  papilla_haptic_options options{};
-  options.device = "touch";
-  options.probe_radius_m = -1;
-  papilla_haptic* const haptic = papilla_haptic_open(file.path.c_str(), &options, nullptr, 0);
-  ASSERT_NE(haptic, nullptr);
-  EXPECT_EQ(papilla_haptic_triangles(haptic), 200U);
-  EXPECT_STREQ(papilla_haptic_material(haptic, 0), "grain");
-  EXPECT_EQ(papilla_haptic_material(haptic, 1), nullptr);
-  double force[3], proxy[3], normal[3];
-  const double above[3] = {0.05, 0.005, -0.05}, below[3] = {0.05, -0.002, -0.05};
-  papilla_haptic_reset(haptic, above);
-  EXPECT_EQ(papilla_haptic_tick(haptic, above, 0, force), 0);
-  EXPECT_EQ(force[1], 0);
-  int found = 0;
-  for (int i = 0; i < 100; ++i) found = papilla_haptic_tick(haptic, below, 0, force);
-  EXPECT_TRUE(found & PAPILLA_HAPTIC_CONTACT);
-  EXPECT_LT(force[1], 0.1);  // The first force fades in: a wall does not stiffen around a hand that is in it.
-  papilla_haptic_tick(haptic, above, 0, force);
-  for (int i = 0; i < 100; ++i) found = papilla_haptic_tick(haptic, below, 0, force);
-  EXPECT_TRUE(found & PAPILLA_HAPTIC_CONTACT);
-  EXPECT_NEAR(force[1], 300 * 0.002, 300 * 1.2e-4);
-  papilla_haptic_proxy(haptic, proxy, normal);
-  EXPECT_NEAR(proxy[1], 0, 1.5e-4);
-  EXPECT_GT(normal[1], 0.9);
-  EXPECT_TRUE(papilla_haptic_tick(haptic, below, 1, force) & PAPILLA_HAPTIC_FAULT);
-  EXPECT_EQ(force[1], 0);
-  papilla_haptic_reset(haptic, above);
-  EXPECT_EQ(papilla_haptic_tick(haptic, above, 0, force), 0);
-  papilla_haptic_close(haptic);
-}
-
-/// Half a millimetre, the device's, when nothing is said.
-TEST(CInterface, ProbeIsABallUnlessAskedForAPoint) {
-  const File file(testing::plate_glb({{"haptic", {{"version", 1}, {"stiffness", 300}}}}, ""));
-  const auto height_at_rest = [&](double radius, const char* device) {
-    papilla_haptic_options options{};
-    options.device = device;
-    options.probe_radius_m = radius;
-    papilla_haptic* const haptic = papilla_haptic_open(file.path.c_str(), &options, nullptr, 0);
-    double force[3], proxy[3];
-    const double above[3] = {0.05, 0.005, -0.05}, below[3] = {0.05, -0.001, -0.05};
-    papilla_haptic_reset(haptic, above);
-    papilla_haptic_tick(haptic, below, 0, force);
-    papilla_haptic_proxy(haptic, proxy, nullptr);
-    papilla_haptic_close(haptic);
-    return proxy[1];
-  };
-  EXPECT_NEAR(height_at_rest(0, "touch"), 5.2e-4, 2e-6);
-  EXPECT_NEAR(height_at_rest(0, nullptr), 5.2e-4, 2e-6);
-  EXPECT_NEAR(height_at_rest(2e-3, "touch"), 2.02e-3, 2e-6);
-  EXPECT_NEAR(height_at_rest(-1, "touch"), 2e-5, 2e-6);
-}
-
-TEST(CInterface, RefusesWithOneLine) {
-  char message[80] = "";
-  EXPECT_EQ(papilla_haptic_open("missing.glb", nullptr, message, sizeof message), nullptr);
-  EXPECT_NE(std::string(message).find("missing.glb"), std::string::npos);
-  EXPECT_EQ(papilla_haptic_open(nullptr, nullptr, message, sizeof message), nullptr);
-  papilla_haptic_options odd{};
-  odd.rate_hz = -1;
-  EXPECT_EQ(papilla_haptic_open("missing.glb", &odd, message, 5), nullptr);
-  EXPECT_EQ(std::string(message).size(), 4U);
-  double force[3] = {1, 1, 1};
-  EXPECT_EQ(papilla_haptic_tick(nullptr, force, 0, force), PAPILLA_HAPTIC_FAULT);
-  papilla_haptic_close(nullptr);
 }
 
 }  // namespace
