@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The components of the install, of which packages are made: every file is in one, and what each must have is there.
-# Usage: cmake -D BUILD_DIR=folder -D WORK_DIR=folder -D TOOLKIT=bool -P components_test.cmake
+# Usage: cmake -D BUILD_DIR=folder -D WORK_DIR=folder -D TOOLKIT=bool -D PYTHON=bool -P components_test.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${WORK_DIR})
 
@@ -19,9 +19,14 @@ set(dev "lib[^;]*/libpapilla\\.so" "lib[^;]*/libpapilla_haptic\\.a" include/papi
 set(papilla bin/papilla "lib[^;]*/papilla/papilla_cad\\.so" "lib[^;]*/papilla/papilla_pictures\\.so"
     share/bash-completion/completions/papilla share/papilla/demo/cockpit\\.step share/papilla/demo/materials\\.json
     share/papilla/schema/materials\\.schema\\.json "share/papilla/materials/[^;]*\\.json")
+set(python "lib[^;]*/papilla/_papilla\\.[^;]*so" "lib[^;]*/papilla/__init__\\.py" "lib[^;]*/papilla/__init__\\.pyi"
+    "lib[^;]*/papilla/py\\.typed")
 set(components player library dev)
 if(TOOLKIT)
   list(APPEND components papilla)
+endif()
+if(PYTHON)
+  list(APPEND components python)
 endif()
 
 installed(all)
