@@ -119,7 +119,7 @@ struct FirstCut {
 
 /// A list of triangles for closest points and for sight lines, those in double precision. Own code because the known
 /// libraries lack what the callers live on: a start bound for the search ("nearer than this?", from the neighbour's
-/// answer) and answers in double precision. About 150 bytes a triangle, up to twice that when most are slanted slivers.
+/// answer) and answers in double precision. About 116 bytes a triangle, up to twice that when most are slanted slivers.
 /// Any triangle shape is fine.
 class TriangleBvh {
  public:
