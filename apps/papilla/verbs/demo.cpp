@@ -89,7 +89,7 @@ Json run(const Options& options, VerbContext& context) {
         line_of({"synthesize", "grain", "--kind", kind, "-o", (folder / "grain" / (kind + ".png")).string()}));
   const int threads =
       context.threads > 0 ? context.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  run_lines(grains, std::min(threads, static_cast<int>(grains.size())), threads, context, commands);
+  run_lines(grains, std::clamp(static_cast<int>(grains.size()), 1, threads), threads, context, commands);
   report_progress(context.progress, "demo", 0.1);
   run_lines({line_of({"bake", (data / "cockpit.step").string(), "-m", materials.string(), "-o", scene.string(),
                       "--chord", shown_format("{}", options.chord_mm), "--report", report.string(), "--pictures"})},
