@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "bvh.hpp"
 
+#include <exception>
+#include <thread>
+
 #include "papilla/core/error.hpp"
 
 namespace papilla {
 namespace {
 
 constexpr int k_bins = 16;
-constexpr int k_sah_depth = 48;  // Halving below adds at most 31 levels, which fits a stack of 96.
+constexpr int k_sah_depth = 48;         // Halving below adds at most 31 levels, which fits a stack of 96.
+constexpr int k_levels_of_threads = 2;  // Up to four threads.
+constexpr std::size_t k_least_for_threads = std::size_t{1} << 16;
 
 float centre(const Box3f& box, std::size_t axis) noexcept { return 0.5F * box.low[axis] + 0.5F * box.high[axis]; }
 
@@ -101,47 +106,88 @@ std::size_t partition_items(std::span<BoxedItem> items, const Box3f& centres, in
 
 }  // namespace
 
+/// Nodes of the items, the root first and each first child's nodes before those of the second.
+struct Bvh::Build {
+  struct Joined {
+    std::thread& thread;
+    ~Joined() { thread.join(); }
+  };
+  std::uint32_t leaf_size;
+  int most_levels_of_threads;
+
+  /// Appends the children of `node`, and what is below them, for its items from `first` on.
+  void branch(LargeArray<Node>& nodes, std::size_t node, std::span<BoxedItem> items, std::uint32_t first,
+              int depth) const {
+    const Extent extent(items);
+    nodes[node].box = extent.all;
+    if (items.size() <= leaf_size) {
+      nodes[node].first = first;
+      nodes[node].count = static_cast<std::uint32_t>(items.size());
+      return;
+    }
+    const std::size_t left = partition_items(items, extent.centres, depth);
+    const auto child = nodes.size();
+    nodes[node].first = static_cast<std::uint32_t>(child);
+    nodes.resize(child + 2);
+    const auto middle = static_cast<std::uint32_t>(first + left);
+    if (depth >= most_levels_of_threads || items.size() < k_least_for_threads) {
+      branch(nodes, child, items.first(left), first, depth + 1);
+      branch(nodes, child + 1, items.subspan(left), middle, depth + 1);
+      return;
+    }
+    LargeArray<Node> others(1);
+    std::exception_ptr fault;
+    {
+      std::thread other([&] {
+        try {
+          branch(others, 0, items.subspan(left), middle, depth + 1);
+        } catch (...) {
+          fault = std::current_exception();
+        }
+      });
+      const Joined end{other};
+      branch(nodes, child, items.first(left), first, depth + 1);
+    }
+    if (fault) std::rethrow_exception(fault);
+    append(nodes, child + 1, others);
+  }
+
+  /// The root of `others` becomes `node`, the rest follows.
+  static void append(LargeArray<Node>& nodes, std::size_t node, const LargeArray<Node>& others) {
+    const std::size_t moved = nodes.size() - 1;
+    nodes.resize(moved + others.size());
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      Node& to = nodes[i == 0 ? node : moved + i];
+      to = others[i];
+      if (to.count == 0) to.first += static_cast<std::uint32_t>(moved);
+    }
+  }
+};
+
 Bvh::Bvh(std::span<BoxedItem> items, std::uint32_t leaf_size) {
   if (items.size() > (std::size_t{1} << 31)) throw InvalidInput("Bvh: more than 2^31 boxes");
   if (items.empty()) return;
   items_ = static_cast<std::uint32_t>(items.size());
-  struct Task {
-    std::uint32_t node, first, count;
-    int depth;
-  };
   nodes_.reserve(4 * (items.size() / leaf_size) + 2);
   nodes_.resize(k_root + 1);
-  std::vector<Task> tasks{{k_root, 0, items_, 0}};
-  while (!tasks.empty()) {
-    const Task task = tasks.back();
-    tasks.pop_back();
-    const std::span<BoxedItem> own = items.subspan(task.first, task.count);
-    const Extent extent(own);
-    nodes_[task.node].box = extent.all;
-    if (task.count <= leaf_size) {
-      nodes_[task.node].first = task.first;
-      nodes_[task.node].count = task.count;
-      continue;
-    }
-    const auto left = static_cast<std::uint32_t>(partition_items(own, extent.centres, task.depth));
-    const auto child = static_cast<std::uint32_t>(nodes_.size());
-    nodes_[task.node].first = child;
-    nodes_.resize(nodes_.size() + 2);
-    tasks.push_back({child + 1, task.first + left, task.count - left, task.depth + 1});
-    tasks.push_back({child, task.first, left, task.depth + 1});
-  }
+  Build{leaf_size, std::thread::hardware_concurrency() > 1 ? k_levels_of_threads : 0}.branch(nodes_, k_root, items, 0,
+                                                                                             0);
   nodes_.shrink_to_fit();
 }
 
 std::vector<std::uint32_t> Bvh::number_leaves() {
-  std::vector<std::uint32_t> leaves, begins;
-  for (std::uint32_t i = k_root; i < nodes_.size(); ++i)
-    if (nodes_[i].count > 0) leaves.push_back(i);
-  std::sort(leaves.begin(), leaves.end(),
-            [this](std::uint32_t a, std::uint32_t b) { return nodes_[a].first < nodes_[b].first; });
-  for (const std::uint32_t leaf : leaves) {
-    begins.push_back(std::exchange(nodes_[leaf].first, static_cast<std::uint32_t>(begins.size())));
-    nodes_[leaf].count = 1;
+  std::vector<std::uint32_t> begins, open;
+  if (!nodes_.empty()) open.push_back(k_root);
+  while (!open.empty()) {
+    Node& node = nodes_[open.back()];
+    open.pop_back();
+    if (node.count == 0) {
+      open.push_back(node.first + 1);
+      open.push_back(node.first);
+      continue;
+    }
+    begins.push_back(std::exchange(node.first, static_cast<std::uint32_t>(begins.size())));
+    node.count = 1;
   }
   begins.push_back(items_);
   return begins;

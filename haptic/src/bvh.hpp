@@ -41,9 +41,9 @@ struct BoxedItem {
 /// Built top down with the surface area heuristic over 16 bins per axis [Wald 2007, "On fast construction of SAH-based
 /// bounding volume hierarchies"]; below depth 48, and where all centres coincide, by halving, which bounds the depth by
 /// k_stack. Build: O(n log n), three passes over the items of each level, in memory order; needs no memory but that of
-/// the items and the nodes. Deterministic.
-/// Queries are noexcept, use a fixed stack and allocate nothing. They report ranges of the items, which the owner keeps
-/// in the order of the build.
+/// the items and the nodes. The first two levels of many items are split between up to four threads; the tree is the
+/// same for any number of them. Queries are noexcept, use a fixed stack and allocate nothing. They report ranges of the
+/// items, which the owner keeps in the order of the build.
 class Bvh {
  public:
   Bvh() = default;
@@ -80,6 +80,7 @@ class Bvh {
     std::uint32_t first = 0;  ///< Leaf: place of its first box; else: index of the first of two children.
     std::uint32_t count = 0;  ///< Leaf: number of boxes; else 0.
   };
+  struct Build;
   static constexpr int k_stack = 96;
   static constexpr std::uint32_t k_root = 1;  // So that siblings share a cache line.
 

@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace papilla {
 namespace {
 
 constexpr std::uint32_t k_group = 4;
+constexpr std::size_t k_least_for_threads = 1024;  // Clusters.
 constexpr int k_least_exponent = -120, k_largest_exponent = 120;
 constexpr std::size_t k_line = 64;
 constexpr float k_rounding = 4 * std::numeric_limits<float>::epsilon();
@@ -118,32 +120,43 @@ TriangleClusters::TriangleClusters(std::vector<BoxedItem> boxes,
   reliefs_.shrink_to_fit();
 }
 
+/// Quantizes the boxes of a cluster's groups, into which its items are sorted.
+void TriangleClusters::set_groups(Cluster& cluster, std::span<BoxedItem> items) {
+  sort_into_groups(items);
+  Box3f all;
+  for (const BoxedItem& item : items) all.add(item.box);
+  cluster.origin = all.low;
+  for (std::size_t k = 0; k < 3; ++k)
+    cluster.exponent[k] = static_cast<std::int8_t>(exponent_of(all.high[k] - all.low[k]));
+  for (std::size_t g = 0; g < k_groups; ++g) {
+    Box3f group;
+    for (std::size_t i = k_group * g; i < std::min<std::size_t>(k_group * (g + 1), items.size()); ++i)
+      group.add(items[i].box);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool empty = !(group.low[k] <= group.high[k]);
+      cluster.low[k][g] = empty ? 255 : cluster.cell(group.low[k], k);
+      cluster.high[k][g] = empty ? 0 : cluster.cell(group.high[k], k);
+    }
+  }
+}
+
 void TriangleClusters::build_clusters(std::span<BoxedItem> boxes) {
   tree_ = Bvh(boxes, k_most);
   const std::vector<std::uint32_t> begins = tree_.number_leaves();
   clusters_.resize(begins.size() - 1);
-  for (std::size_t c = 0; c < clusters_.size(); ++c) {
-    Cluster& cluster = clusters_[c];
-    cluster.first = begins[c];
-    cluster.count = static_cast<std::uint8_t>(begins[c + 1] - begins[c]);
-    const std::span<BoxedItem> items = boxes.subspan(begins[c], cluster.count);
-    sort_into_groups(items);
-    Box3f all;
-    for (const BoxedItem& item : items) all.add(item.box);
-    cluster.origin = all.low;
-    for (std::size_t k = 0; k < 3; ++k)
-      cluster.exponent[k] = static_cast<std::int8_t>(exponent_of(all.high[k] - all.low[k]));
-    for (std::size_t g = 0; g < k_groups; ++g) {
-      Box3f group;
-      for (std::size_t i = k_group * g; i < std::min<std::size_t>(k_group * (g + 1), items.size()); ++i)
-        group.add(items[i].box);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const bool empty = !(group.low[k] <= group.high[k]);
-        cluster.low[k][g] = empty ? 255 : cluster.cell(group.low[k], k);
-        cluster.high[k][g] = empty ? 0 : cluster.cell(group.high[k], k);
-      }
+  const auto set = [&](std::size_t from, std::size_t to) noexcept {
+    for (std::size_t c = from; c < to; ++c) {
+      clusters_[c].first = begins[c];
+      clusters_[c].count = static_cast<std::uint8_t>(begins[c + 1] - begins[c]);
+      set_groups(clusters_[c], boxes.subspan(begins[c], clusters_[c].count));
     }
-  }
+  };
+  if (clusters_.size() < k_least_for_threads || std::thread::hardware_concurrency() < 2)
+    return set(0, clusters_.size());
+  const std::size_t half = clusters_.size() / 2;
+  std::thread other(set, half, clusters_.size());
+  set(0, half);
+  other.join();
 }
 
 /// Grown by one cell and the rounding of single precision.

@@ -135,6 +135,7 @@ class TriangleClusters {
     const Cluster& c = clusters_[place / k_most];
     return c.vertex + corners_[c.first + place % k_most][k];
   }
+  static void set_groups(Cluster& cluster, std::span<BoxedItem> items);
   void build_clusters(std::span<BoxedItem> boxes);
 
   Bvh tree_;

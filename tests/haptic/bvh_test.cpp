@@ -61,22 +61,23 @@ TEST(Bvh, HoldsEveryBoxOnce) {
 }
 
 TEST(Bvh, LeavesAreNumberedInTheOrderOfTheItems) {
-  const std::size_t count = 5000;
-  Sorted sorted(random_boxes(count, 7), 64);
-  const std::vector<std::uint32_t> begins = sorted.tree.number_leaves();
-  ASSERT_GT(begins.size(), count / 64);
-  EXPECT_EQ(begins.front(), 0U);
-  EXPECT_EQ(begins.back(), count);
-  std::vector<int> visits(begins.size() - 1, 0);
-  double radius = 10;
-  sorted.tree.within({}, radius, [&](std::uint32_t begin, std::uint32_t end) {
-    EXPECT_EQ(end, begin + 1);
-    ++visits.at(begin);
-  });
-  for (std::size_t leaf = 0; leaf < visits.size(); ++leaf) {
-    EXPECT_EQ(visits[leaf], 1);
-    EXPECT_LT(begins[leaf], begins[leaf + 1]);
-    EXPECT_LE(begins[leaf + 1] - begins[leaf], 64U);
+  for (const std::size_t count : {5000U, 300'000U}) {  // The second is built by several threads.
+    Sorted sorted(random_boxes(count, 7), 64);
+    const std::vector<std::uint32_t> begins = sorted.tree.number_leaves();
+    ASSERT_GT(begins.size(), count / 64);
+    EXPECT_EQ(begins.front(), 0U);
+    EXPECT_EQ(begins.back(), count);
+    std::vector<int> visits(begins.size() - 1, 0);
+    double radius = 10;
+    sorted.tree.within({}, radius, [&](std::uint32_t begin, std::uint32_t end) {
+      EXPECT_EQ(end, begin + 1);
+      ++visits.at(begin);
+    });
+    for (std::size_t leaf = 0; leaf < visits.size(); ++leaf) {
+      EXPECT_EQ(visits[leaf], 1);
+      EXPECT_LT(begins[leaf], begins[leaf + 1]);
+      EXPECT_LE(begins[leaf + 1] - begins[leaf], 64U);
+    }
   }
 }
 
@@ -102,6 +103,25 @@ TEST(Bvh, WithinFindsWhatBruteForceFinds) {
         EXPECT_TRUE(found.count(b));
       }
   }
+}
+
+TEST(Bvh, BoxesThatThreadsShareAreAllFound) {
+  const std::vector<Box3f> boxes = random_boxes(300'000, 12);
+  const Sorted sorted(boxes, 16);
+  const Vec3 centre{0.3, -0.4, 0.1};
+  double radius = 0.15;
+  std::set<std::uint32_t> found;
+  sorted.tree.within(centre, radius, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) found.insert(sorted.items[i].item);
+  });
+  std::size_t near = 0;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    if (distance(boxes[i], centre) < radius) {
+      ++near;
+      EXPECT_TRUE(found.contains(i));
+    }
+  EXPECT_GT(near, 1000U);
+  EXPECT_LT(found.size(), 2 * near);
 }
 
 TEST(Bvh, AlongFindsEveryBoxNearTheSegment) {
