@@ -6,6 +6,7 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/cache/stage_cache.hpp"
+#include "papilla/core/cold_arrays.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/haptic/material_tag_stream.hpp"
@@ -91,6 +92,7 @@ bool is_gltf_file(const std::filesystem::path& path) {
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, const ProgressCallback& progress) {
   require_file(path);
   report_progress(progress, "read", 0);
+  const ColdArrays waiting;
   Scene scene = read_by_extension(path, options, progress);
   report_progress(progress, "read", 1);
   return scene;

@@ -25,7 +25,7 @@ constexpr double k_feature_angle_deg = 45;
 ChartSet open_charts(const TriangleMesh& mesh, const ChartSet& charts, bool disks) {
   check_charts(mesh, charts, "open_charts");
   const SegmentedMesh surface(mesh);
-  const SeamWeights weights(surface, k_feature_angle_deg);
+  const SeamWeights weights(surface, triangle_openness(surface), k_feature_angle_deg);
   std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
   PieceCutter cutter(surface, seam);
   for (auto& triangles : triangles_of_charts(charts_between(surface, seam)))
@@ -38,7 +38,7 @@ ChartSet open_closed_charts(const TriangleMesh& mesh, const ChartSet& charts) {
   const auto is_open = [](const ChartTopology& t) { return !t.closed() && t.genus() == 0; };
   if (std::all_of(topologies.begin(), topologies.end(), is_open)) return charts;
   const SegmentedMesh surface(mesh);
-  const SeamWeights weights(surface, k_feature_angle_deg);
+  const SeamWeights weights(surface, triangle_openness(surface), k_feature_angle_deg);
   std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
   PieceCutter cutter(surface, seam);
   for (auto& triangles : triangles_of_charts(charts_between(surface, seam)))
@@ -48,7 +48,8 @@ ChartSet open_closed_charts(const TriangleMesh& mesh, const ChartSet& charts) {
 }
 
 struct ChartHalver::Surface {
-  explicit Surface(const TriangleMesh& m) : mesh(m), surface(m), weights(surface, k_feature_angle_deg) {}
+  explicit Surface(const TriangleMesh& m)
+      : mesh(m), surface(m), weights(surface, triangle_openness(surface), k_feature_angle_deg) {}
 
   const TriangleMesh& mesh;
   SegmentedMesh surface;

@@ -16,6 +16,7 @@
 #include "exact_positions.hpp"
 #include "mesh_attributes.hpp"
 #include "papilla/core/bounds.hpp"
+#include "papilla/core/cold_arrays.hpp"
 #include "papilla/core/error.hpp"
 #include "point_tree.hpp"
 
@@ -293,8 +294,11 @@ std::vector<PartCopy> find_identical_parts(std::span<const ComparedPart> parts, 
     detail::check_distance_input(*parts[i].mesh, name + ".mesh", bounds);
   }
   std::vector<std::unique_ptr<Shape>> shapes(parts.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(),
-                            [&](std::size_t i) { shapes[i] = std::make_unique<Shape>(*parts[i].mesh); });
+  {
+    const ColdArrays waiting;
+    oneapi::tbb::parallel_for(std::size_t{0}, parts.size(),
+                              [&](std::size_t i) { shapes[i] = std::make_unique<Shape>(*parts[i].mesh); });
+  }
 
   using Key = std::tuple<std::uint64_t, std::size_t, std::size_t>;
   std::map<Key, std::vector<std::uint32_t>> by_key;

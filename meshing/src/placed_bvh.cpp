@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "papilla/core/bounds.hpp"
+#include "papilla/core/cold_arrays.hpp"
 
 namespace papilla::detail {
 namespace {
@@ -31,6 +32,7 @@ TriangleFrame PlacedBvh::Tree::frame(std::size_t triangle) const noexcept {
 }
 
 PlacedBvh::PlacedBvh(const WorldScene& scene) {
+  const ColdArrays waiting;
   for (const PlacedTriangles& part : scene.parts) {
     first_.push_back(part.is_opaque() ? static_cast<Index>(size_) : k_no_value);
     if (!part.is_opaque() || part.size() == 0) continue;

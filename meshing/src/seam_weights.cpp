@@ -27,7 +27,7 @@ Vec3 centroid(const SegmentedMesh& surface, Index t) {
 }
 
 /// The share of a cosine-weighted hemisphere's directions that meet nothing.
-double openness(const TriangleBvh& tree, const Vec3& p, const Vec3& normal, Index own, double sight) {
+double openness_at(const TriangleBvh& tree, const Vec3& p, const Vec3& normal, Index own, double sight) {
   const Vec3 helper = std::abs(normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 e = normalized(cross(normal, helper)), f = cross(normal, e);
   int open = 0;
@@ -51,6 +51,8 @@ std::vector<Index> choose_places(const SegmentedMesh& surface) {
   return places;
 }
 
+}  // namespace
+
 std::vector<float> triangle_openness(const SegmentedMesh& surface) {
   std::vector<float> open(surface.size(), -1);
   Bounds3 bounds;
@@ -61,7 +63,7 @@ std::vector<float> triangle_openness(const SegmentedMesh& surface) {
   const TriangleBvh tree(surface.positions, surface.triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
     const Index t = places[i];
-    open[t] = static_cast<float>(openness(tree, centroid(surface, t), surface.normal[t], t, sight));
+    open[t] = static_cast<float>(openness_at(tree, centroid(surface, t), surface.normal[t], t, sight));
   });
   for (std::size_t i = 0; i < places.size(); ++i)
     for (Index h = 3 * places[i]; h < 3 * places[i] + 3; ++h) {
@@ -76,11 +78,8 @@ std::vector<float> triangle_openness(const SegmentedMesh& surface) {
   return open;
 }
 
-}  // namespace
-
-SeamWeights::SeamWeights(const SegmentedMesh& surface, double feature_angle_deg)
+SeamWeights::SeamWeights(const SegmentedMesh& surface, const std::vector<float>& openness, double feature_angle_deg)
     : surface_(surface), weight_(surface.opposite.size(), 1) {
-  const std::vector<float> open = triangle_openness(surface);
   const double sharp = feature_angle_deg * k_radians_per_degree;
   for (Index h = 0; h < weight_.size(); ++h) {
     const Index other = surface.opposite[h];
@@ -90,7 +89,7 @@ SeamWeights::SeamWeights(const SegmentedMesh& surface, double feature_angle_deg)
         std::atan2(norm(cross(surface.normal[a], surface.normal[b])), dot(surface.normal[a], surface.normal[b]));
     const bool concave = dot(centroid(surface, b) - centroid(surface, a), surface.normal[a]) > 0;
     const double crease = std::min(1.0, angle / sharp) * (concave ? 0.75 : 0.5);
-    const double seen = std::max(k_least_openness, 0.5 * (double{open[a]} + double{open[b]}));
+    const double seen = std::max(k_least_openness, 0.5 * (double{openness[a]} + double{openness[b]}));
     weight_[h] = weight_[other] = static_cast<float>(seen * (1 - crease));
   }
 }

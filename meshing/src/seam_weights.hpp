@@ -7,12 +7,17 @@
 
 namespace papilla::detail {
 
+/// The share of directions in which each triangle is open to the outside: rays against the surface from up to 2,048
+/// places, over which every other triangle takes the nearest one's.
+std::vector<float> triangle_openness(const SegmentedMesh& surface);
+
 /// How much a seam shows along each edge: w = o (1 - s), with o the share of directions in which the edge is open to
 /// the outside, from k_least_openness up, and s = 1/2 on creases of the feature angle and sharper, 3/4 when they are
 /// concave, and proportionally less on flatter ones.
 class SeamWeights {
  public:
-  SeamWeights(const SegmentedMesh& surface, double feature_angle_deg);
+  /// @param openness  triangle_openness() of the surface.
+  SeamWeights(const SegmentedMesh& surface, const std::vector<float>& openness, double feature_angle_deg);
 
   double of(Index halfedge) const noexcept { return double{weight_[halfedge]}; }
   /// Length times weight.

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <string>
+#include <vector>
 
 #include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
@@ -56,14 +57,32 @@ std::vector<ChartOutline> cut_patches(const SegmentedMesh& surface, const SeamWe
 
 }  // namespace
 
+struct ChartSegmenter::Surface {
+  SegmentedMesh mesh;
+  std::vector<float> openness;
+
+  explicit Surface(const TriangleMesh& of) : mesh(of), openness(triangle_openness(mesh)) {}
+};
+
+ChartSegmenter::ChartSegmenter(const TriangleMesh& mesh) {
+  check_mesh(mesh, "segment_charts");
+  if (!mesh.triangles.empty()) surface_ = std::make_unique<Surface>(mesh);
+}
+
+ChartSegmenter::~ChartSegmenter() = default;
+
 SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOptions& options) {
   check_options(options);
-  check_mesh(mesh, "segment_charts");
+  return ChartSegmenter(mesh).segment(options);
+}
+
+SegmentationResult ChartSegmenter::segment(const SegmentationOptions& options) const {
+  check_options(options);
   const auto tell = [&](double fraction) { report_progress(options.progress, "charts", fraction); };
   SegmentationResult result;
-  if (mesh.triangles.empty()) return result;
-  const SegmentedMesh surface(mesh);
-  const SeamWeights weights(surface, options.feature_angle_deg);
+  if (!surface_) return result;
+  const SegmentedMesh& surface = surface_->mesh;
+  const SeamWeights weights(surface, surface_->openness, options.feature_angle_deg);
   tell(0.2);
 
   std::uint32_t count = 0;

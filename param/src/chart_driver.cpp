@@ -134,7 +134,7 @@ Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, cons
   oneapi::tbb::parallel_for(std::uint32_t{0}, charts.count, [&](std::uint32_t c) {
     if (members.of(c).empty()) return;
     const ChartSurface surface = cutter.cut(c, members.of(c));
-    if (options.memory && options.memory->maps().recall(members.of(c), surface, mapped[c])) {
+    if (options.memory && options.memory->maps().recall(members.of(c), surface, options.energy_limit, mapped[c])) {
       if (options.choices) (*options.choices)[c] = mapped[c].choice;
       return;
     }

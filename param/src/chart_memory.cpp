@@ -2,6 +2,7 @@
 #include "papilla/param/chart_memory.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mapped_chart.hpp"
@@ -12,11 +13,14 @@ ChartMemory::ChartMemory() : maps_(std::make_unique<Maps>()) {}
 ChartMemory::~ChartMemory() = default;
 
 bool ChartMemory::Maps::recall(std::span<const Index> triangles, const param_detail::ChartSurface& surface,
-                               param_detail::MappedChart& chart) const {
+                               double energy_limit, param_detail::MappedChart& chart) const {
   const auto kept = by_first_triangle.find(triangles.front());
   if (kept == by_first_triangle.end()) return false;
   if (!std::ranges::equal(kept->second.triangles, triangles)) return false;
   if (kept->second.chart.uv.indices != surface.triangles) return false;  // cut in another way
+  const Trace& trace = kept->second.chart.trace;
+  if (std::isfinite(energy_limit) && !trace.empty() && trace.back().error > energy_limit * kept->second.chart.area)
+    return false;
   chart = kept->second.chart;
   return true;
 }

@@ -37,8 +37,9 @@ struct ChartMemory::Maps {
   };
   std::unordered_map<Index, Kept> by_first_triangle;
 
-  /// Whether the chart has a map that is kept, which `chart` then is. May run in parallel.
-  bool recall(std::span<const Index> triangles, const param_detail::ChartSurface& surface,
+  /// Whether the chart has a map that is kept, of a mean energy of at most `energy_limit`; `chart` then is that map.
+  /// May run in parallel.
+  bool recall(std::span<const Index> triangles, const param_detail::ChartSurface& surface, double energy_limit,
               param_detail::MappedChart& chart) const;
 
   /// Does nothing for charts without a map by the method.

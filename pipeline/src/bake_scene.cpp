@@ -16,6 +16,7 @@
 
 #include "bake_solid.hpp"
 #include "papilla/core/bounds.hpp"
+#include "papilla/core/cold_arrays.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
@@ -321,6 +322,7 @@ std::map<std::uint32_t, PartWork> parts_of(const std::vector<PartSurface>& surfa
 void reassemble(Part& part, PartWork& parted) {
   const auto is_new = [](const SurfaceWork* work) { return runs(*work->surface, Stage::unwrap); };
   if (std::none_of(parted.works.begin(), parted.works.end(), is_new)) return;
+  const ColdArrays waiting;
   TriangleMesh mesh;
   for (const PartSurface* surface : parted.surfaces) {
     const auto work = std::find_if(parted.works.begin(), parted.works.end(),

@@ -402,6 +402,7 @@ Grain make_whole_grain(const MaterialRule& rule, const RecipeLibrary& library, c
   QuantityMaps maps = read_maps(rule, std::move(source.maps), library);
   look_at(rule, source, grain);
   ReadingOptions in_time;
+  in_time.roughness = !several && !source.computed;  // Only the relief of a picture is made by it.
   in_time.deadline = deadline.earlier_by(k_seconds_to_read_a_pixel * static_cast<double>(source.grey.pixels.size()));
   const TextureReading reading = read_texture(source.grey, in_time);
   if (reading.stop == StopReason::time_limit)

@@ -131,15 +131,20 @@ SegmentationOptions segmentation_of(const MethodOptions& o, const PartContext& c
   return segmentation;
 }
 
+/// What several ways to chart and map one part have in common.
+struct PartMemory {
+  std::optional<ChartSegmenter> segmenter;  ///< Made when charts are not in the cache.
+  std::optional<ChartHalver> halver;        ///< Made when a chart has no map.
+  ChartMemory maps;
+};
+
 /// Halves charts that have no valid map, or none worth having, a few times; the last map stays whatever it is.
-Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions options,
+Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions options, PartMemory& memory,
                         std::vector<ChartChoice>& choices) {
   const int most_halvings = options.charts == ChartSource::automatic ? 6 : 0;
-  ChartMemory memory;
   for (ChartMemory** of_method : {&options.maillot.memory, &options.levy.memory, &options.lscm.memory,
                                   &options.reference.memory, &options.best.memory, &options.automatic.best.memory})
-    *of_method = most_halvings > 0 ? &memory : nullptr;
-  std::optional<ChartHalver> halver;
+    *of_method = most_halvings > 0 ? &memory.maps : nullptr;
   for (int i = 0;; ++i) {
     Flattening flattening = map_charts(cut_open(mesh, charts), charts, options, choices);
     if (flattening.notes.empty() || i == most_halvings || options.deadline.passed()) {
@@ -148,13 +153,13 @@ Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions
     }
     std::vector<std::uint32_t> failed;
     for (const ChartNote& note : flattening.notes) failed.push_back(note.chart);
-    if (!halver) halver.emplace(mesh);
-    charts = halver->halve(charts, failed);
+    if (!memory.halver) memory.halver.emplace(mesh);
+    charts = memory.halver->halve(charts, failed);
   }
 }
 
 Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
-                         FlattenedPart& part) {
+                         PartMemory& memory, FlattenedPart& part) {
   const Stopwatch clock;
   SegmentationOptions segmentation = segmentation_of(o, context);
   segmentation.progress = [&o](const Progress& done) {
@@ -162,25 +167,28 @@ Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const
     return !o.deadline.passed();
   };
   const PlacedGrain& grain = o.grains.front();
-  const auto segment = [&] { return segment_charts(mesh, segmentation).charts; };
+  const auto segment = [&] {
+    if (!memory.segmenter) memory.segmenter.emplace(mesh);
+    return memory.segmenter->segment(segmentation).charts;
+  };
   // A segmentation whose time is up is cancelled: what there is is whole. Its grain is a function, and not in the key.
   const ChartSet charts = remembered(o.cache, "charts", CacheUse::read_write, segment, mesh, segmentation, grain.source,
                                      grain.vector, context.up, segmentation.grain != nullptr)
                               .value;
   part.segment_seconds += clock.seconds();
   part.choices.clear();
-  return map_or_halve(mesh, charts, o, part.choices);
+  return map_or_halve(mesh, charts, o, memory, part.choices);
 }
 
 /// As choose_seam_cost() does.
-Flattening chart_twice(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+Flattening chart_twice(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context, PartMemory& memory,
                        FlattenedPart& part) {
   std::vector<std::vector<ChartChoice>> choices;
   SeamChoice choice = choose_seam_cost(mesh, [&](double seam_cost) {
     MethodOptions own = o;
     own.segmentation.seam_cost = seam_cost;
     own.best.energy_limit = own.automatic.best.energy_limit = 4 + worth_halving(own.segmentation);
-    Flattening flattening = chart_and_map(mesh, own, context, part);
+    Flattening flattening = chart_and_map(mesh, own, context, memory, part);
     choices.push_back(std::move(part.choices));
     return flattening;
   });
@@ -202,10 +210,12 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
     }
     default: break;
   }
-  if (o.charts != ChartSource::automatic) return map_or_halve(mesh, given_charts(mesh, o.charts), o, part.choices);
+  PartMemory memory;
+  if (o.charts != ChartSource::automatic)
+    return map_or_halve(mesh, given_charts(mesh, o.charts), o, memory, part.choices);
   if (o.choose_seam_cost && mesh.triangles.size() <= most_charted_twice(o.effort))
-    return chart_twice(mesh, o, context, part);
-  return chart_and_map(mesh, o, context, part);
+    return chart_twice(mesh, o, context, memory, part);
+  return chart_and_map(mesh, o, context, memory, part);
 }
 
 }  // namespace

@@ -65,9 +65,9 @@ double rounded_border_distance(const PebblePoints& points, Vec2 p, int own_colum
     for (int i = -2; i <= 2; ++i) {
       if (i == 0 && j == 0) continue;
       const Vec2 other = points.point(own_column + i, own_row + j), across = other - own;
-      const double half = norm(across) / 2;
-      const double distance = dot(0.5 * (own + other) - p, across) / norm(across);
-      distances[count++] = std::max(0.0, distance / std::max(half, k_least_flank));
+      const double length = std::sqrt(dot(across, across));
+      const double distance = dot(0.5 * (own + other) - p, across) / length;
+      distances[count++] = std::max(0.0, distance / std::max(0.5 * length, k_least_flank));
     }
   const double least = *std::min_element(distances.begin(), distances.end());
   const double softness = k_rounding * least;
@@ -85,9 +85,10 @@ double pebble_height(const PebblePoints& points, Vec2 p, const PebbleShape& shap
   double nearest = 1e300;
   for (int j = -2; j <= 2; ++j)
     for (int i = -2; i <= 2; ++i) {
-      const double distance = norm(points.point(column + i, row + j) - p);
-      if (distance < nearest) {
-        nearest = distance;
+      const Vec2 way = points.point(column + i, row + j) - p;
+      const double square = dot(way, way);
+      if (square < nearest) {
+        nearest = square;
         own_column = column + i;
         own_row = row + j;
       }

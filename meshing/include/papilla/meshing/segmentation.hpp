@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/meshing/chart_set.hpp"
@@ -70,5 +71,23 @@ struct SegmentationResult {
 /// with handles or several loops go through OpenMesh. Deterministic, whatever the number of threads.
 /// @throws InvalidInput when an index is out of range, a position is not finite or an option is out of range.
 SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOptions& options = {});
+
+/// For several segmentations of one mesh: the edges of the mesh and the rays that tell how visible a seam would be, up
+/// to half of the cost, are computed once.
+class ChartSegmenter {
+ public:
+  /// @param mesh  must live as long as this. @throws InvalidInput as segment_charts().
+  explicit ChartSegmenter(const TriangleMesh& mesh);
+  ~ChartSegmenter();
+  ChartSegmenter(const ChartSegmenter&) = delete;
+  ChartSegmenter& operator=(const ChartSegmenter&) = delete;
+
+  /// What segment_charts() gives. @throws InvalidInput as segment_charts().
+  SegmentationResult segment(const SegmentationOptions& options) const;
+
+ private:
+  struct Surface;
+  std::unique_ptr<Surface> surface_;  ///< None of an empty mesh.
+};
 
 }  // namespace papilla

@@ -4,7 +4,8 @@
 // links this file; where the kernel offers no huge pages nothing changes. The large blocks freed last, 64 MiB of them,
 // are handed out again, as the system clears what it gives; the others go back to it when they are freed: malloc would
 // raise its limit for that to 32 MiB and keep what the tasks of a repair leave behind. What is smaller stays: a heap
-// that shrinks and grows with every chart of a part would be cleared page by page each time.
+// that shrinks and grows with every chart of a part would be cleared page by page each time. Cold arrays lie in a file
+// once memory is short.
 #include <malloc.h>
 #include <sys/mman.h>
 
@@ -13,6 +14,9 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+
+#include "memory/spilled_memory.hpp"
+#include "papilla/core/cold_arrays.hpp"
 
 namespace {
 
@@ -64,7 +68,14 @@ class FreedBlocks {
 
 constinit FreedBlocks freed_blocks;
 
+constexpr std::size_t k_mib = std::size_t{1} << 20;
+constinit papilla::app::SpilledMemory spilled_memory({.begin_bytes = 128 * k_mib,
+                                                      .resident_bytes = 320 * k_mib,
+                                                      .least_block = 8192});
+
 void* allocate(std::size_t size) noexcept {
+  if (papilla::ColdArrays::any())
+    if (void* block = spilled_memory.take(size)) return block;
   if (size < k_large) return std::malloc(size > 0 ? size : 1);
   const std::size_t whole = (size + k_huge_page - 1) / k_huge_page * k_huge_page;
   if (void* block = freed_blocks.take(whole)) return block;
@@ -75,6 +86,7 @@ void* allocate(std::size_t size) noexcept {
 
 /// Only what allocate() aligned to huge pages is that large and starts where one does.
 void release(void* block) noexcept {
+  if (spilled_memory.owns(block)) return spilled_memory.give(block);
   const bool is_large = reinterpret_cast<std::uintptr_t>(block) % k_huge_page == 0 && block;
   if (is_large && ::malloc_usable_size(block) >= k_large)
     freed_blocks.give(block, ::malloc_usable_size(block) / k_huge_page * k_huge_page);
