@@ -42,6 +42,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
   find_package(assimp REQUIRED)
   find_package(OpenImageIO REQUIRED)
+  find_package(PNG REQUIRED)
   pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
   if(PAPILLA_BUILD_PYTHON AND NOT PAPILLA_SANITIZE)  # The interpreter has no sanitizers.
     # The system's Python, whose numpy is the package; -DPython_EXECUTABLE names another one.

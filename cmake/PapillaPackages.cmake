@@ -71,7 +71,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/packages/trig
 papilla_package(dev libpapilla-dev SECTION libdevel SUMMARY "development files of Papilla"
   DEPENDS "libpapilla1 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})"
   RECOMMENDS "libdraco-dev, libhidapi-dev, libmd-dev, libmeshoptimizer-dev, libtinygltf-dev, nlohmann-json3-dev"
-  SUGGESTS "libassimp-dev, libceres-dev, libcgal-dev, libeigen3-dev, libfftw3-dev, libfmt-dev, liblcms2-dev, libocct-data-exchange-dev, libopenimageio-dev, libopenmesh-dev, libssl-dev, libtbb-dev"
+  SUGGESTS "libassimp-dev, libceres-dev, libcgal-dev, libeigen3-dev, libfftw3-dev, libfmt-dev, liblcms2-dev, libocct-data-exchange-dev, libopenimageio-dev, libopenmesh-dev, libpng-dev, libssl-dev, libtbb-dev"
   TEXT "Headers, static libraries, CMake and pkg-config files: the C interface of"
        "libpapilla1, and the C++ libraries of meshing, parameterization, texture,"
        "haptics and pipeline. C programs need nothing else; the C++ libraries of touch"

@@ -20,6 +20,7 @@
 #include "papilla/io/scene.hpp"
 #include "picture_codec.hpp"
 #include "picture_input.hpp"
+#include "png_stream.hpp"
 #include "profile_curve.hpp"
 
 namespace papilla {
@@ -68,11 +69,6 @@ void write_bytes(const fs::path& path, const std::vector<unsigned char>& data) {
 void check_pixels(int width, int height, std::size_t values, std::size_t channels, const char* function) {
   if (width < 1 || height < 1 || values != channels * pixel_count(width, height))
     throw InvalidInput(fmt::format("{}: {} values for a picture of {} x {}", function, values, width, height));
-}
-
-std::vector<std::byte> to_bytes(const std::vector<unsigned char>& data) {
-  const auto bytes = std::as_bytes(std::span(data));
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -148,7 +144,7 @@ ColorImage decode_image(const Scene& scene, std::size_t image) {
 
 std::vector<std::byte> encode_png(const ColorImage& image) {
   check_pixels(image.width, image.height, image.pixels.size(), 3, "encode_png");
-  return to_bytes(encode("picture.png", {image.width, image.height, 3}, SampleType::byte, image.pixels.data()));
+  return io_detail::png_stream({image.width, image.height, 3, 8, image.pixels.data()});
 }
 
 EncodedHeight encode_height_png16(const HeightMap& map) {
@@ -163,8 +159,7 @@ EncodedHeight encode_height_png16(const HeightMap& map) {
   std::vector<std::uint16_t> samples(map.mm.size());
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = static_cast<std::uint16_t>(std::lround((double{map.mm[i]} - result.offset_mm) * steps_per_mm));
-  result.png =
-      to_bytes(encode("height.png", {map.width, map.height, 1, SampleType::word}, SampleType::word, samples.data()));
+  result.png = io_detail::png_stream({map.width, map.height, 1, 16, samples.data()});
   return result;
 }
 

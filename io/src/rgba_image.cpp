@@ -10,8 +10,8 @@
 #include "papilla/core/srgb.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/scene.hpp"
-#include "picture_codec.hpp"
 #include "picture_input.hpp"
+#include "png_stream.hpp"
 
 namespace papilla {
 namespace {
@@ -78,11 +78,7 @@ std::vector<std::byte> encode_png(const RgbaImage& image) {
   if (image.width < 1 || image.height < 1 || image.pixels.size() != 4 * pixel_count(image.width, image.height))
     throw InvalidInput(fmt::format("encode_png: {} values for an RGBA picture of {} x {}", image.pixels.size(),
                                    image.width, image.height));
-  const std::vector<unsigned char> data = io_detail::pictures_plugin()
-                                              .encoder("picture.png", {image.width, image.height, 4})
-                                              ->encode(io_detail::SampleType::byte, image.pixels.data());
-  const auto bytes = std::as_bytes(std::span(data));
-  return {bytes.begin(), bytes.end()};
+  return io_detail::png_stream({image.width, image.height, 4, 8, image.pixels.data()});
 }
 
 LinearImage read_linear_image(const std::filesystem::path& path) {
