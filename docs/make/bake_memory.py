@@ -78,11 +78,11 @@ def page(rows):
         triangles = row["parts"] * TRIANGLES
         lines.append(f"| {row['parts']:,} | {triangles:,} | {row['read_mb']:.1f} | {row['written_mb']:.1f} | "
                      f"{row['peak_mb']:.0f} | {1e6 * row['peak_mb'] / triangles:.0f} | {row['cpu_s']:.0f} |")
-    lines += ["", "A scene is in memory as a whole, positions in double precision: by the sizes of its arrays about 25 bytes a "
-              "triangle as it is read, 45 once it has uv. Above that lie the text of an OBJ while it is read (37 bytes a triangle of such a "
-              "file), the trees in which the sides of open parts are looked for (22), and the parts that are being "
-              "unwrapped. `--pictures` keeps the surfaces with their distortion, 120 bytes a triangle more; "
-              "[jobs](../cache.md#jobs) and [batches](../batch.md) divide what is too large.", ""]
+    lines += ["", "What waits for most of the time lies in a file without a name "
+              "([how](../files.md#scenes-larger-than-memory)): the text of an OBJ while it is read, the parts (25 bytes a "
+              "triangle as they are read, 45 with uv) and the trees in which the sides of open parts are looked for (22). In memory "
+              "are the parts that are being unwrapped, the grains, and what is told of each part. `--pictures` keeps "
+              "the surfaces with their distortion, 120 bytes a triangle more.", ""]
     return "\n".join(lines)
 
 

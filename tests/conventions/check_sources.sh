@@ -167,6 +167,7 @@ readonly library_uses='
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
 <zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB
 <lcms2\.h> lcms2 liblcms2-dev PkgConfig::LCMS
+<png\.h> PNG libpng-dev PNG::PNG
 <pybind11/ pybind11 pybind11-dev pybind11::embed
 <pybind11/numpy python3-numpy
 <pybind11/pybind11 Python python3-dev
