@@ -100,6 +100,7 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, 
 
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path, const WriteOptions& options,
                                      GlbSizes* sizes) {
+  const ColdArrays waiting;
   const std::string extension = lower_extension(path);
   if (extension == ".glb") return write_glb(scene, path, options, sizes);
   if (extension == ".gltf") return write_gltf(scene, path, options, sizes);

@@ -11,6 +11,7 @@
 #include "check_mesh.hpp"
 #include "edge_table.hpp"
 #include "open_sheets.hpp"
+#include "papilla/core/cold_arrays.hpp"
 #include "papilla/core/error.hpp"
 #include "placed_bvh.hpp"
 #include "room.hpp"
@@ -152,6 +153,7 @@ class SideFinder {
       check_distance_input(*result_.meshes[m].mesh,
                            "find_sheet_sides: parts[" + std::to_string(uses_of[m].front()) + "].mesh", bounds);
     }
+    const ColdArrays waiting;
     open_.resize(uses_of.size());
     oneapi::tbb::parallel_for(std::size_t{0}, open_.size(),
                               [&](std::size_t m) { open_[m] = find_open_sheets(*result_.meshes[m].mesh); });
@@ -299,6 +301,7 @@ class SideFinder {
 
   /// Decides the sheets that continue decided ones, and those that continue these.
   void continue_neighbours() {
+    const ColdArrays waiting;
     std::vector<BorderEdge> known, asked;
     for (const PlacedSheet& placed : placed_) {
       const Sheet& sheet = sheets_[placed.sheet];
