@@ -185,13 +185,16 @@ void SpilledMemory::watch() noexcept {
   }
 }
 
-/// What the parent changes must not change here, nor what this process changes there.
+/// What the parent changes must not change here, nor what this process changes there. Addresses that hold nothing are
+/// given up, as the child may be one whose addresses are limited.
 void SpilledMemory::make_private() noexcept {
   active_ = false, never_ = true;
   for (std::size_t s = 0; s < used_; ++s)
     if (segments_[s].run != 0)
       ::mmap(at(s), k_segment, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_FIXED, file_,
              static_cast<off_t>(s * k_segment));
+  reserved_ = used_ * k_segment;
+  ::munmap(at(used_), k_reserved - reserved_);
 }
 
 void SpilledMemory::after_fork() noexcept {

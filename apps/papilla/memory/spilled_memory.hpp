@@ -42,7 +42,7 @@ class SpilledMemory {
 
   bool owns(const void* block) const noexcept {
     const auto start = reinterpret_cast<std::uintptr_t>(base_.load(std::memory_order_relaxed));
-    return reinterpret_cast<std::uintptr_t>(block) - start < k_reserved && start != 0;
+    return start != 0 && reinterpret_cast<std::uintptr_t>(block) - start < reserved_.load(std::memory_order_relaxed);
   }
 
   /// @param block  of take().
@@ -82,6 +82,7 @@ class SpilledMemory {
   std::atomic<bool> active_{false}, never_{false};
   std::atomic<std::size_t> unchecked_bytes_{0};
   std::atomic<std::byte*> base_{nullptr};
+  std::atomic<std::size_t> reserved_{k_reserved};  ///< Of addresses, from base_ on.
   int file_ = -1;
   mutable std::mutex mutex_;
   std::array<Segment, k_segments> segments_{};
