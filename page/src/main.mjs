@@ -69,7 +69,7 @@ class Page {
       + (fewer ? `${scene.triangles_shown.toLocaleString('en')} shown, simplified for this page by about ${number(scene.error_mm)} mm at most` : 'all of them shown');
     $('summary').title = $('summary').textContent;
     $('footer').textContent = data.live ? `Served by ${data.program}, on this machine only. The samples come from its player; nothing is loaded from anywhere else.`
-      : data.looks || data.review?.keeps ? `Served by ${data.program}, on this machine only. Nothing is loaded from anywhere else.`
+      : data.looks ? `Served by ${data.program}, on this machine only. Nothing is loaded from anywhere else.`
       : `Written by ${data.program}. Everything is in this file; nothing is loaded from anywhere.`;
   }
 

@@ -43,14 +43,13 @@ export function parseReview(text) {
 }
 
 export class Notes {
-  /** @param data of the page; its `review` says what is known and whether the server keeps it, @param page shows views */
+  /** @param data of the page, @param page shows views */
   constructor(data, page) {
     Object.assign(this, { data, page, list: [], pins: new THREE.Group() });
     page.three?.scene.add(this.pins);
     $('note-add').addEventListener('click', () => this.addAtPick());
     $('notes-save').addEventListener('click', () => this.save());
     $('notes-open').addEventListener('change', (e) => this.open(e.target));
-    if (data.review?.text) this.take(data.review.text);
     this.show();
   }
 
@@ -88,24 +87,13 @@ export class Notes {
       time: new Date().toISOString(), picture,
     };
     this.list.push(note);
-    this.changed();
-    return note;
-  }
-
-  changed() {
     this.show();
-    if (this.data.review?.keeps) this.save();
+    return note;
   }
 
   json() { return JSON.stringify({ papilla_review: VERSION, scene: this.data.scene.file, notes: this.list }, null, 2) + '\n'; }
 
-  /** Into the file of the server, or as a download. */
-  async save() {
-    if (!this.data.review?.keeps) return download('review.json', this.json(), 'application/json');
-    const answer = await fetch(`review${location.search}`, { method: 'POST', body: this.json() }).catch((error) => ({ ok: false, statusText: error.message }));
-    this.say(answer.ok ? `${this.list.length} kept in ${this.data.review.file}.` : `Not kept: ${answer.statusText || answer.status}.`);
-    return undefined;
-  }
+  save() { download('review.json', this.json(), 'application/json'); }
 
   show() {
     this.pins.clear();
@@ -121,10 +109,10 @@ export class Notes {
   item(note, i) {
     const text = element('textarea', { 'aria-label': `Note ${i + 1}, ${note.part}` });
     text.value = note.text;
-    text.addEventListener('change', () => { note.text = text.value; if (this.data.review?.keeps) this.save(); });
+    text.addEventListener('change', () => { note.text = text.value; });
     const go = element('button', { type: 'button' }, icon('place'), ' Go there'), remove = element('button', { type: 'button', 'aria-label': `Remove note ${i + 1}` }, icon('remove'));
     go.addEventListener('click', () => this.page.visit(note));
-    remove.addEventListener('click', () => { this.list.splice(i, 1); this.changed(); });
+    remove.addEventListener('click', () => { this.list.splice(i, 1); this.show(); });
     const picture = typeof note.picture === 'string' && note.picture.startsWith('data:image/') ? [element('img', { src: note.picture, alt: `Picture of note ${i + 1}` })] : [];
     return element('li', {}, element('b', {}, `${i + 1} ${note.part}`), ...picture, text, element('div', { class: 'row' }, go, remove));
   }

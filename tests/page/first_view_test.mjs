@@ -155,7 +155,7 @@ async function partsShowTheirFronts(page) {
       return { first: three.seen()[0] === selected, among: three.seen().includes(selected), below: three.camera.position.y < three.box.min.y };
     });
     assert.ok(seen.among && !seen.below, `${part} is seen: ${JSON.stringify(seen)}`);
-    if (part.startsWith('seat') || part === 'glove_box_lid') assert.ok(seen.first, `${part} is what is seen most`);
+    if (part.startsWith('seat')) assert.ok(seen.first, `${part} is what is seen most`);
     if (part === 'seat_cushion') await page.screenshot({ path: join(place, 'seat-cushion.png') });
   }
 }

@@ -19,14 +19,13 @@ globalThis.headset.installRuntime({ forceInstall: true });
 globalThis.headset.position.set(0, 1.2, 0);
 globalThis.pulses = [];`;
 
-/** Frames of a clock of our own, 72 a second. \`steer(time)\` runs before each. */
+/** Frames of a clock of our own, 72 a second; steer(time) runs before each. */
 const STEP = `globalThis.frames = async (count, steer = () => {}) => {
   const { headset } = globalThis.papilla;
   globalThis.clock ??= 1;
   if (!headset.real) {
     headset.real = headset.frame;
     headset.frame = () => {};
-    headset.renderLess = true;
   }
   for (let i = 0; i < count; ++i) {
     globalThis.clock += 1 / 72;
@@ -42,7 +41,7 @@ globalThis.tipTo = (x, y, z, ahead) => {
   if (way) { const q = rig.quaternion.clone().setFromUnitVectors(new V(0, 0, -1), way); right.quaternion.set(q.x, q.y, q.z, q.w); }
 };`;
 
-async function enter(browser, page, html) {
+async function enter(browser, html) {
   const opened = await open(browser, html, { viewport: { width: 480, height: 360 }, init: DEVICE });
   await opened.page.waitForSelector('#canvas3d[data-textures=loaded]');
   await opened.page.waitForSelector('#enter-vr:not([hidden])');
@@ -83,7 +82,7 @@ async function pulses(browser) {
   const wanted = { amplitude: 0.02, wave: 2, stiffness: 1000, friction: 0.3 }, speed = 100, gltf = join(place, 'plate.gltf'), html = join(place, 'plate.html');
   writeFileSync(gltf, JSON.stringify(plate(wanted)));
   execFileSync(papilla, ['view', gltf, '-o', html, '--no-open', '-q']);
-  const { page, complaints } = await enter(browser, null, html);
+  const { page, complaints } = await enter(browser, html);
   const found = await page.evaluate(async (v) => {
     const start = globalThis.clock ?? 1;
     await globalThis.frames(25, (time) => globalThis.tipTo(-60 + v * (time - start), 1000, -1, [0, 0, -1]));
@@ -108,7 +107,7 @@ async function pulses(browser) {
 
 /** What the cockpit costs a headset, where one is, and what one can do there. */
 async function cockpit(browser) {
-  const { page, complaints } = await enter(browser, null, file);
+  const { page, complaints } = await enter(browser, file);
   const cost = await page.evaluate(() => {
     const { xrCalls, xrTriangles, xrTextureBytes } = document.getElementById('canvas3d').dataset;
     return { calls: Number(xrCalls), triangles: Number(xrTriangles), textures: Number(xrTextureBytes) };
@@ -123,7 +122,10 @@ async function cockpit(browser) {
   // Onto the dash, from the front, 0.3 mm below its surface, to the side.
   const touched = await page.evaluate(async () => {
     const { three, nameOf } = globalThis.papilla, V = three.seat.eye.constructor;
-    const from = three.seat.eye.clone(), spot = three.surface.meet(from, new V(0.32, -0.16, -1).normalize());
+    const on = (x) => three.surface.meet(three.seat.eye.clone(), new V(x, -0.14, -1).normalize()), isDash = (spot) => spot && nameOf.call(globalThis.papilla, spot.use) === 'dash_skin';
+    let x = 0.3;
+    while (![0, 0.02, 0.04].every((step) => isDash(on(x + step)))) x += 0.01;  // plain for 40 mm
+    const spot = on(x);
     const along = new V(1, 0, 0).projectOnPlane(spot.normal).normalize(), start = globalThis.clock;
     await globalThis.frames(12, (time) => {
       const near = three.surface.nearest(spot.point.clone().addScaledVector(along, 100 * (time - start)), 20);
