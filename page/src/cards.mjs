@@ -97,7 +97,7 @@ const vectorText = (v) => `(${v.map((c) => number(Math.abs(c) < 1e-3 * Math.hypo
 
 function constants(material, about) {
   const tag = material?.haptic, rows = [];
-  const add = (name, value) => { if (value !== undefined && value !== null && value !== '') rows.push([name, value]); };
+  const add = (name, value) => { if (value !== undefined && value !== null && value !== '' && value !== false) rows.push([name, value]); };
   add('stiffness', tag && `${number(tag.stiffness ?? 500)} N/m`);
   add('damping', tag && `${number(tag.damping ?? 0)} N·s/m`);
   add('friction', tag && `${number(tag.staticFriction ?? tag.dynamicFriction ?? 0)} static, ${number(tag.dynamicFriction ?? tag.staticFriction ?? 0)} dynamic`);
@@ -117,7 +117,7 @@ function constants(material, about) {
   const over = about?.roughness?.overlay;
   add('roughness over it', over && `H ${number(over.hurst)}, rms ${number(over.rms_mm)} mm, waves of ${over.wavelength_range_mm.map(number).join(' to ')} mm`);
   const steps = about?.plan?.filter((step) => step.run) ?? [];
-  add('made in steps', steps.length && steps.map((step) => step.step.replaceAll('_', ' ')).join(', '));
+  add('made in steps', steps.length > 0 && steps.map((step) => step.step.replaceAll('_', ' ')).join(', '));
   add('picture', about?.picture && `${about.picture.file.split(/[\\/]/).pop()}, ${about.picture.size_mm.map(number).join(' x ')} mm${about.picture.tiles ? ', tiles' : ', does not tile'}`);
   add('made by', tag?.provenance?.tool);
   return element('dl', {}, ...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
