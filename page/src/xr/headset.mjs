@@ -197,7 +197,8 @@ export class Headset {
     const { renderer, world, camera, scene } = this.three, [width, height] = SNAPSHOT, target = new THREE.WebGLRenderTarget(width, height, { colorSpace: THREE.SRGBColorSpace });
     const eye = new THREE.PerspectiveCamera(70, width / height, 0.02, 50), shown = renderer.getRenderTarget();
     camera.matrixWorld.decompose(eye.position, eye.quaternion, eye.scale);
-    for (const { tip } of this.hands) tip.ball.visible = false;
+    for (const { tip, ray } of this.hands) tip.ball.visible = ray.visible = false;
+    this.three.outline.visible = this.tag.mesh.visible = false;
     scene.updateMatrixWorld();
     renderer.xr.enabled = false;
     renderer.setRenderTarget(target);
@@ -206,9 +207,10 @@ export class Headset {
     renderer.readRenderTargetPixels(target, 0, 0, width, height, bytes);
     renderer.setRenderTarget(shown);
     renderer.xr.enabled = true;
+    for (const { ray, source } of this.hands) ray.visible = source?.handedness === 'right';
     target.dispose();
     for (let y = 0; y < height; ++y) picture.data.set(bytes.subarray(4 * width * (height - 1 - y), 4 * width * (height - y)), 4 * width * y);
-    for (let i = 0; i < picture.data.length; ++i) picture.data[i] = i % 4 === 3 ? 255 : 255 * (picture.data[i] / 255) ** (1 / 2.2);
+    for (let i = 3; i < picture.data.length; i += 4) picture.data[i] = 255;
     const canvas = Object.assign(document.createElement('canvas'), { width, height });
     canvas.getContext('2d').putImageData(picture, 0, 0);
     return canvas.toDataURL('image/jpeg', 0.8);
