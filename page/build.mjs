@@ -17,7 +17,7 @@ async function bundle(entry, loader) {
   return result.outputFiles[0].text;
 }
 
-const licences = ['three', 'uplot', 'meshoptimizer', 'fast-png', 'fflate', 'iobuffer'].map((name) => {
+const licences = ['three', 'three-mesh-bvh', 'uplot', 'meshoptimizer', 'fast-png', 'fflate', 'iobuffer'].map((name) => {
   const about = JSON.parse(readFileSync(join(modules, name, 'package.json'), 'utf8'));
   return `${name} ${about.version} (${about.license})`;
 });

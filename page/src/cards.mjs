@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A card per material: photo with its lattice, the primitive, the relief, how rough it is over lengths, constants.
 import uPlot from 'uplot';
-import { number } from './colour.mjs';
+import { curve, number, tick } from './colour.mjs';
 import { element } from './dom.mjs';
 import { surfaceOf } from './force.mjs';
-import { axis, logSplits } from './plot_look.mjs';
+import { axis, legend, logSplits } from './plot_look.mjs';
 import { drawRelief } from './relief_picture.mjs';
 
 /** Root mean square difference of heights over lags of 2^k samples, along x and y: straight in log-log when fractal. */
@@ -72,13 +72,17 @@ const plots = [];
 /** After a change of colours. */
 export function repaintCards() { for (const plot of plots) plot.redraw(); }
 
-function fractalPlot(host, relief, size) {
-  const log = { size: 52, splits: (_, __, low, high) => logSplits(low, high), filter: (_, splits) => splits, values: (_, ticks) => ticks.map(number) };
-  plots.push(new uPlot({
-    width: 300, height: 180, legend: { show: false }, cursor: { show: false },
-    scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
-    series: [{}, { stroke: '#1b7fd6', width: 2, points: { show: true, size: 6 } }], axes: [axis('lag [mm]', { ...log, size: 30 }), axis('rms [mm]', log)],
-  }, structureFunction(relief, size[0] / relief.width), host));
+const LOGARITHMIC = { splits: (_, __, low, high) => logSplits(low, high), filter: (_, splits) => splits, values: (_, ticks) => ticks.map(tick) };
+
+/** @param functions [{name, data: [lags, rms]}], a curve each */
+function roughnessPlot(host, functions, width, height) {
+  const plot = new uPlot({
+    width, height, legend: functions.length > 1 ? legend : { show: false }, cursor: { show: false }, scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
+    series: [{}, ...functions.map(({ name }, i) => ({ ...curve(i), label: name, spanGaps: true, points: { show: true, size: 6 } }))],
+    axes: [axis('lag [mm]', { ...LOGARITHMIC, size: 30 }), axis('rms [mm]', { ...LOGARITHMIC, size: 52 })],
+  }, uPlot.join(functions.map(({ data }) => data)), host);
+  plots.push(plot);
+  return plot;
 }
 
 async function imageOf(bytes) {
@@ -93,7 +97,7 @@ const vectorText = (v) => `(${v.map((c) => number(Math.abs(c) < 1e-3 * Math.hypo
 
 function constants(material, about) {
   const tag = material?.haptic, rows = [];
-  const add = (name, value) => { if (value !== undefined && value !== null && value !== '') rows.push([name, value]); };
+  const add = (name, value) => { if (value !== undefined && value !== null && value !== '' && value !== false) rows.push([name, value]); };
   add('stiffness', tag && `${number(tag.stiffness ?? 500)} N/m`);
   add('damping', tag && `${number(tag.damping ?? 0)} N·s/m`);
   add('friction', tag && `${number(tag.staticFriction ?? tag.dynamicFriction ?? 0)} static, ${number(tag.dynamicFriction ?? tag.staticFriction ?? 0)} dynamic`);
@@ -113,7 +117,7 @@ function constants(material, about) {
   const over = about?.roughness?.overlay;
   add('roughness over it', over && `H ${number(over.hurst)}, rms ${number(over.rms_mm)} mm, waves of ${over.wavelength_range_mm.map(number).join(' to ')} mm`);
   const steps = about?.plan?.filter((step) => step.run) ?? [];
-  add('made in steps', steps.length && steps.map((step) => step.step.replaceAll('_', ' ')).join(', '));
+  add('made in steps', steps.length > 0 && steps.map((step) => step.step.replaceAll('_', ' ')).join(', '));
   add('picture', about?.picture && `${about.picture.file.split(/[\\/]/).pop()}, ${about.picture.size_mm.map(number).join(' x ')} mm${about.picture.tiles ? ', tiles' : ', does not tile'}`);
   add('made by', tag?.provenance?.tool);
   return element('dl', {}, ...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
@@ -133,7 +137,8 @@ function groups(scene, report) {
   }));
 }
 
-async function card({ felt, materials, about }) {
+/** @param compared takes what is drawn of all in one plot */
+async function card({ felt, materials, about }, compared) {
   const [material] = materials;
   const title = about?.name ?? (felt ? material.name.replace(/ #[0-9A-Fa-f]{6,8}$/, '') || `material ${material.index}` : 'without touch');
   const node = element('article', { class: 'card' }, element('h3', {}, title));
@@ -151,7 +156,9 @@ async function card({ felt, materials, about }) {
   if (material.relief) {
     const host = element('div', { role: 'img', 'aria-label': 'Root mean square difference of heights over distance, logarithmic' });
     node.append(host);
-    fractalPlot(host, material.relief, size);
+    const data = structureFunction(material.relief, size[0] / material.relief.width);
+    roughnessPlot(host, [{ name: title, data }], 300, 180);
+    compared.push({ name: title, data });
   }
   for (const warning of new Set(materials.flatMap((m) => m.warnings))) node.append(element('p', { class: 'note' }, `⚠ ${warning}`));
   node.append(element('p', { class: 'note' }, `${materials.length} of the file's materials: ${materials.slice(0, 12).map((m) => m.name || `#${m.index}`).join(', ')}${materials.length > 12 ? ', …' : ''}`));
@@ -165,13 +172,24 @@ function environmentCard(three) {
   return element('article', { class: 'card' }, element('h3', {}, 'environment'),
     element('div', { class: 'pictures' }, element('figure', {}, canvas, element('figcaption', {}, 'mirror ball'))),
     element('p', { class: 'note' }, three.data.environment === null
-      ? 'What lights and is mirrored in the textured view: a bright room of the page itself (three.js), with a sun from the camera\'s upper right. It is no part of the file.'
+      ? "What lights and is mirrored in the textured view: a white studio of the page itself, with a lamp at the camera's upper left. It is no part of the file."
       : 'What lights and is mirrored in the textured view: the picture that was given as environment. Materials with one of their own mirror that.'));
+}
+
+/** The roughness of all materials in one plot. */
+function comparison(compared) {
+  const host = element('div', { class: 'curves', role: 'img', 'aria-label': `Root mean square difference of heights over distance of ${compared.map(({ name }) => name).join(', ')}` });
+  const node = element('article', { class: 'card wide' }, element('h3', {}, 'Roughness over length, all materials'), host);
+  const plot = roughnessPlot(host, compared, 600, 260);
+  new ResizeObserver(() => host.clientWidth && plot.setSize({ width: Math.min(host.clientWidth, 900), height: 260 })).observe(host);
+  return node;
 }
 
 /** @param three the scene in 3D, or nothing */
 export async function fillCards(host, scene, report, three) {
+  const compared = [];
   if (!scene.materials.length) host.append('The file has no materials.');
-  for (const group of groups(scene, report).sort((a, b) => Boolean(b.about) - Boolean(a.about) || b.felt - a.felt)) host.append(await card(group));
+  for (const group of groups(scene, report).sort((a, b) => Boolean(b.about) - Boolean(a.about) || b.felt - a.felt)) host.append(await card(group, compared));
+  if (compared.length > 1) host.append(comparison(compared));
   if (three) host.append(environmentCard(three));
 }

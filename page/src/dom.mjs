@@ -16,7 +16,7 @@ export function table(columns, rows, onRow) {
   const body = rows.map((row) => {
     const line = element('tr', {}, ...columns.map((c) => {
       const value = c.of(row);
-      return value instanceof Node ? element('td', {}, value) : element('td', c.numeric ? { class: 'n' } : {}, value);
+      return element('td', c.numeric ? { class: 'n' } : {}, value);
     }));
     if (onRow) line.addEventListener('click', () => onRow(row));
     return line;

@@ -6,7 +6,7 @@ import { LiveMarks } from './live_marks.mjs';
 import { axis, legend } from './plot_look.mjs';
 
 const $ = (id) => document.getElementById(id);
-const SHOWN_S = 10;
+const SHOWN_S = 10, PLOT_HEIGHT = 190;
 
 const length = (v) => Math.hypot(...v);
 const triple = (v, unit) => v ? `${v.map((c) => c.toFixed(2)).join(', ')} ${unit}` : 'no number';
@@ -15,7 +15,6 @@ const millimetres = (v) => v?.map((c) => 1000 * c);
 export class Live {
   /** @param three may be missing where the browser can't draw in 3D */
   constructor(title, three) {
-    for (const node of document.querySelectorAll('[data-live]')) node.hidden = false;
     this.title = title;
     this.marks = three && new LiveMarks(three);
     this.clear();
@@ -73,11 +72,11 @@ export class Live {
 
   makePlot() {
     this.plot = new uPlot({
-      width: Math.max($('live-plot').clientWidth, 200), height: 230, legend, scales: { x: { time: false }, y: { range: (_, low, high) => [0, Math.max(high ?? 0, 0.1) * 1.05] } },
+      width: Math.max($('live-plot').clientWidth, 200), height: PLOT_HEIGHT, legend, scales: { x: { time: false }, y: { range: (_, low, high) => [0, Math.max(high ?? 0, 0.1) * 1.05] } },
       series: [{ label: 'seconds' }, { label: 'force [N]', stroke: '#1b7fd6', width: 2 }, { label: 'in contact', stroke: '#d9730d', width: 6 }],
       axes: [axis('seconds'), axis('newtons')],
     }, this.samples, $('live-plot'));
-    new ResizeObserver(() => this.plot.setSize({ width: $('live-plot').clientWidth, height: 230 })).observe($('live-plot'));
+    new ResizeObserver(() => $('live-plot').clientWidth && this.plot.setSize({ width: $('live-plot').clientWidth, height: PLOT_HEIGHT })).observe($('live-plot'));
   }
 
   /** After a change of colours. */

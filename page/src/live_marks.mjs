@@ -28,11 +28,11 @@ export class LiveMarks {
       o.frustumCulled = false;
     });
     this.group.visible = false;
-    three.world.add(this.group);
-    three.beforeDraw = () => this.fit();
+    three.scene.add(this.group);
+    three.marks.push(this);
   }
 
-  /** Positions in metres and newtons, as glTF has them; the scene is in mm. */
+  /** Positions in metres and newtons, as glTF has them; the scene is in mm. @param follow the camera goes along */
   show({ probe, proxy, force, contact }, strongest, follow) {
     this.now = { probe: new THREE.Vector3(...probe).multiplyScalar(1000), proxy: new THREE.Vector3(...proxy).multiplyScalar(1000), force: new THREE.Vector3(...force), strongest };
     this.group.visible = true;
@@ -47,6 +47,8 @@ export class LiveMarks {
 
   /** What is shown is no longer so. */
   fade() { this.opacity(0.4); this.three.invalidate(); }
+
+  hide() { this.group.visible = false; this.three.invalidate(); }
 
   opacity(value) { this.group.traverse((o) => { if (o.material) o.material.opacity = value; }); }
 
@@ -71,7 +73,7 @@ export class LiveMarks {
 
   fit() {
     if (!this.group.visible) return;
-    const distance = this.three.camera.position.distanceTo(this.now.proxy), { force, strongest } = this.now;
+    const distance = this.three.camera.position.distanceTo(this.now.proxy) / this.three.camera.zoom, { force, strongest } = this.now;
     this.probe.scale.setScalar(MARK * distance);
     this.proxy.scale.setScalar(MARK * distance);
     this.arrow.visible = strongest > 0 && force.length() > 1e-3 * strongest;

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together.
+import * as THREE from 'three';
 import { fillCards, repaintCards } from './cards.mjs';
-import { number, viridis } from './colour.mjs';
+import { number } from './colour.mjs';
+import { Compare } from './compare.mjs';
 import { load } from './data.mjs';
 import { count, element } from './dom.mjs';
+import { fillIcons } from './icons.mjs';
+import { showLegend } from './legend.mjs';
 import { Live } from './live.mjs';
 import { Looks } from './looks.mjs';
+import { Notes } from './notes.mjs';
+import { PartsList } from './parts_list.mjs';
 import { SceneView } from './scene_view.mjs';
 import { fillTables } from './tables.mjs';
+import { showTab, startTabs } from './tabs.mjs';
 import { Touch } from './touch.mjs';
 import { UvView } from './uv_view.mjs';
-import { VIEWS, checkerText, legendText, rangeOf, reasonOff, valueOf } from './views.mjs';
+import { Headset } from './xr/headset.mjs';
+import { VIEWS, checkerText, rangeOf, reasonOff, valueOf } from './views.mjs';
 
 const $ = (id) => document.getElementById(id);
-const MOST_LISTED = 500;
 
 function problem(text) {
   $('problem').hidden = false;
@@ -30,29 +37,40 @@ class Page {
 
   start() {
     const { scene, data } = this;
+    fillIcons();
+    if (data.live) for (const node of document.querySelectorAll('[role=tab][data-live]')) node.hidden = false;
+    startTabs();
+    this.writeHead();
+    this.theme();
+    this.listViews();
+    this.touch = new Touch(scene, reasonOff(VIEWS[7], scene));
+    fillTables(data, this.touch, (name) => this.selectByName(name));
+    this.openViews();
+    this.list = new PartsList(scene.finest_instances, (use) => this.nameOf(use), (use) => this.select(use, true));
+    this.tools();
+    this.listMaterials();
+    this.switchTo(this.view);
+    this.selectFirst();
+    this.notes = new Notes(data, this);
+    this.headset = new Headset(this);
+    this.headset.offer();
+    if (data.live) this.live = new Live(data.title, this.three);
+    if (data.looks) this.looks = new Looks(data.looks, this.three);
+    return fillCards($('cards'), scene, data.report, this.three);
+  }
+
+  writeHead() {
+    const { scene, data } = this;
     document.title = `${data.title} · Papilla`;
     $('title').textContent = data.title;
     const fewer = scene.triangles_shown < scene.triangles;
     $('summary').textContent = `${count(scene.triangles, 'triangle')} in ${count(scene.parts.length - this.coarserParts(), 'part')}; `
       + (scene.levels.length ? `coarser levels of detail at ${count(scene.levels.length, 'place')}, by size on the screen; ` : '')
       + (fewer ? `${scene.triangles_shown.toLocaleString('en')} shown, simplified for this page by about ${number(scene.error_mm)} mm at most` : 'all of them shown');
+    $('summary').title = $('summary').textContent;
     $('footer').textContent = data.live ? `Served by ${data.program}, on this machine only. The samples come from its player; nothing is loaded from anywhere else.`
       : data.looks ? `Served by ${data.program}, on this machine only. Nothing is loaded from anywhere else.`
       : `Written by ${data.program}. Everything is in this file; nothing is loaded from anywhere.`;
-    this.theme();
-    this.listViews();
-    this.touch = new Touch(scene, reasonOff(VIEWS[7], scene));
-    fillTables(data, this.touch, (name) => this.selectByName(name));
-    this.openViews();
-    this.listParts('');
-    $('find').addEventListener('input', (e) => this.listParts(e.target.value));
-    $('parts').addEventListener('keydown', (e) => this.stepParts(e));
-    document.addEventListener('keydown', (e) => this.keys(e));
-    this.switchTo(this.view);
-    this.selectLargest();
-    if (data.live) this.live = new Live(data.title, this.three);
-    if (data.looks) this.looks = new Looks(data.looks, this.three);
-    return fillCards($('cards'), scene, data.report, this.three);
   }
 
   openViews() {
@@ -62,6 +80,8 @@ class Page {
     try {
       this.three = new SceneView($('canvas3d'), this.scene, (hit) => this.pick(hit), (hit) => this.hover(hit));
       this.uv = new UvView($('canvasuv'), this.scene, (hit) => this.pickUv(hit));
+      this.compare = new Compare(this.three, this.scene);
+      this.touch.compare = this.compare;
       this.paint();
     } catch (error) {
       problem(`The browser can't draw in 3D (${error.message}); numbers, materials and touch work without.`);
@@ -78,9 +98,9 @@ class Page {
   }
 
   paint() {
-    const back = getComputedStyle(document.body).backgroundColor;
-    this.three?.setBackground(back);
-    this.uv?.setBackground(back);
+    const style = getComputedStyle(document.documentElement);
+    this.three?.setBackground(style.getPropertyValue('--scene').trim());
+    this.uv?.setBackground(style.getPropertyValue('--card').trim());
     this.touch.repaint();
     this.live?.repaint();
     repaintCards();
@@ -90,7 +110,7 @@ class Page {
     VIEWS.forEach((view, i) => {
       const why = reasonOff(view, this.scene) ?? (this.scene.triangles ? null : 'there are no triangles');
       const input = element('input', { type: 'radio', name: 'view', value: view.id, id: `view-${view.id}` });
-      const label = element('label', why ? { 'data-off': '', title: `Off: ${why}` } : {}, input, ` ${i + 1} ${view.name}`);
+      const label = element('label', why ? { 'data-off': '', title: `Off: ${why}` } : {}, input, element('kbd', {}, String(i + 1)), view.name);
       input.disabled = Boolean(why);
       input.checked = view === this.view;
       input.addEventListener('change', () => this.switchTo(view));
@@ -98,27 +118,41 @@ class Page {
     });
   }
 
+  tools() {
+    const { three } = this;
+    const onClick = (id, action) => $(id).addEventListener('click', () => three && action());
+    onClick('go-home', () => three.goHome());
+    onClick('go-outside', () => three.frameAll());
+    onClick('go-frame', () => three.frameSelected());
+    onClick('zoom-in', () => three.zoomBy(1.25));
+    onClick('zoom-out', () => three.zoomBy(1 / 1.25));
+    onClick('touch-mode', () => showTab($('touch').hidden ? 'tab-touch' : 'tab-parts'));
+    onClick('full-screen', () => document.fullscreenElement ? document.exitFullscreen() : document.querySelector('.stage').requestFullscreen());
+    if (three && !three.seat) $('go-home').disabled = true;
+    document.querySelector('.panel [role=tablist]').addEventListener('choose', ({ detail }) => {
+      const on = detail === 'tab-touch';
+      this.touch.useScene(three, on);
+      $('touch-mode').setAttribute('aria-pressed', String(on));
+    });
+    document.addEventListener('keydown', (e) => this.keys(e));
+  }
+
   keys(event) {
-    if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT/.test(event.target.tagName) && event.target.type !== 'radio') return;
+    if (event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT|TEXTAREA/.test(event.target.tagName) && event.target.type !== 'radio') return;
     const view = VIEWS[Number(event.key) - 1];
     if (view && !$(`view-${view.id}`).disabled) this.switchTo(view);
+    if (event.key.toLowerCase() === 't') $('touch-mode').click();
   }
 
   switchTo(view) {
     this.view = view;
     $(`view-${view.id}`).checked = true;
     if (!this.ranges.has(view.id)) this.ranges.set(view.id, rangeOf(view, this.scene));
-    const range = this.ranges.get(view.id), plain = view.kind < 2;
+    const range = this.ranges.get(view.id);
     this.three?.setView(view, range);
+    this.compare?.view(view, range);
     this.uv?.setView(view, range);
-    $('legend').hidden = plain;
-    $('legend-text').textContent = legendText(view, range, checkerText(this.scene));
-    const context = $('legend').getContext('2d');
-    for (let x = 0; x < 256; ++x) {
-      const [r, g, b] = viridis(x / 255);
-      context.fillStyle = (x + 12.8) % 25.6 < 1 ? '#000' : `rgb(${r} ${g} ${b})`;
-      context.fillRect(x, 0, 1, 14);
-    }
+    showLegend(view, range, checkerText(this.scene));
   }
 
   /** Parts that are nothing but coarser levels of detail. */
@@ -133,33 +167,30 @@ class Page {
     return name || this.scene.parts[part].name || `part ${part}`;
   }
 
-  listParts(filter) {
-    const wanted = filter.toLowerCase(), list = $('parts'), found = [];
-    this.scene.instances.slice(0, this.scene.finest_instances).forEach((_, i) => { if (this.nameOf(i).toLowerCase().includes(wanted)) found.push(i); });
-    list.replaceChildren(...found.slice(0, MOST_LISTED).map((i) => {
-      const item = element('li', { role: 'option', id: `use-${i}`, 'aria-selected': String(i === this.selected) }, this.nameOf(i));
-      item.addEventListener('click', () => this.select(i, true));
-      return item;
-    }));
-    if (found.length > MOST_LISTED) list.append(element('li', {}, `and ${found.length - MOST_LISTED} more: type to find them`));
+  /** Materials that B can be, each look once. */
+  listMaterials() {
+    const list = $('compare');
+    list.add(new Option('nothing', ''));
+    this.scene.materials.forEach((m, i) => list.add(new Option(m.name || `material ${i}`, i)));
+    list.addEventListener('change', () => this.compareWith(list.value === '' ? null : Number(list.value)));
   }
 
-  stepParts(event) {
-    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    const items = [...$('parts').querySelectorAll('[role=option]')];
-    const now = items.findIndex((item) => item.id === `use-${this.selected}`);
-    const next = items[Math.min(Math.max(now + step, 0), items.length - 1)];
-    if (next) this.select(Number(next.id.slice(4)), true);
+  /** @param index of the material that is B, or null */
+  compareWith(index) {
+    this.compare?.show(this.selected, index);
+    $('compare').value = index ?? '';
+    $('compare-text').hidden = index === null;
+    if (index !== null) $('compare-text').textContent = `One half of ${this.nameOf(this.selected)} is ${this.scene.materials[index].name}, its grain in its own size.`;
   }
 
-  /** Of those with uv, so that the layout is not empty at first. */
-  selectLargest() {
+  /** The part with uv, so that the layout is not empty, that the first view shows most of. */
+  selectFirst() {
     const { parts, instances } = this.scene;
-    const size = ({ part }) => parts[part].meshes.some((m) => m.uv) ? parts[part].triangles : 0;
-    const best = instances.reduce((most, use, i) => size(use) > size(instances[most]) ? i : most, 0);
-    if (this.scene.triangles) this.select(best, false);
+    if (!this.scene.triangles) return;
+    const hasUv = (use) => parts[instances[use].part].meshes.some((m) => m.uv);
+    const seen = this.three?.seen() ?? [];
+    this.select(seen.find(hasUv) ?? seen[0] ?? Math.max(0, instances.findIndex((_, use) => hasUv(use))), false);
+    if (this.three) this.three.outline.visible = false;  // nobody chose it yet
   }
 
   selectByName(name) {
@@ -169,16 +200,13 @@ class Page {
 
   select(use, frame) {
     if (this.selected !== use) {
-      document.getElementById(`use-${this.selected}`)?.setAttribute('aria-selected', 'false');
       this.selected = use;
-      const item = document.getElementById(`use-${use}`);
-      item?.setAttribute('aria-selected', 'true');
-      item?.scrollIntoView({ block: 'nearest' });
-      if (item) $('parts').setAttribute('aria-activedescendant', item.id);
+      this.list.select(use);
       this.uv?.show(use);
       const part = this.scene.parts[this.scene.instances[use].part];
       $('uv-text').textContent = part.meshes.some((m) => m.uv) ? `${this.nameOf(use)}: orange lines are borders of charts. Click picks in 3D.` : `${this.nameOf(use)} has no texture coordinates.`;
       $('canvasuv').dataset.part = this.nameOf(use);
+      if (this.compare?.use !== undefined && this.compare.use !== null) this.compareWith(null);
     }
     this.three?.select(use, frame);
     const { meshes } = this.scene.parts[this.scene.instances[use].part];
@@ -207,19 +235,18 @@ class Page {
     return parts.join(', ');
   }
 
-  withBary(hit) { return { ...hit, bary: Array.isArray(hit.bary) ? hit.bary : hit.bary.toArray() }; }
-
   pick(hit) {
     if (!hit) return;
+    this.spot = hit;
     this.select(hit.use, false);
     this.touch.follow(this.scene.materials[hit.mesh.material]);
-    this.describe(hit.use, this.withBary(hit));
+    this.describe(hit.use, hit);
     this.three.mark(hit.use, hit.mesh, hit.local);
     if (hit.mesh.uv) this.uv.mark(hit.uv.x, hit.uv.y);
   }
 
   hover(hit) {
-    $('canvas3d').title = hit ? `${this.nameOf(hit.use)}: ${this.readout(this.withBary(hit))}` : '';
+    $('canvas3d').title = hit ? `${this.nameOf(hit.use)}: ${this.readout(hit)}` : '';
   }
 
   pickUv(hit) {
@@ -231,12 +258,25 @@ class Page {
       local.z += weight * positions[i + 2];
     });
     this.describe(hit.use, hit);
+    const place = this.three.surface.places.find(({ object: { userData } }) => userData.use === hit.use && userData.mesh === hit.mesh);
+    this.spot = this.three.surface.spot(place, hit.face, local);
     this.three.mark(hit.use, hit.mesh, local);
     this.uv.mark(hit.uv.x, hit.uv.y);
   }
+
+  /** Looks at a note as who took it did. */
+  visit({ place_m: place, camera, view, zoom }) {
+    const known = VIEWS.find(({ id }) => id === view);
+    if (known && !$(`view-${known.id}`).disabled) this.switchTo(known);
+    const eye = new THREE.Vector3(...camera.position_m).multiplyScalar(1000), spot = new THREE.Vector3(...place).multiplyScalar(1000);
+    this.three?.lookFrom(eye, new THREE.Vector3(...camera.look), eye.distanceTo(spot), zoom ?? 1);
+  }
 }
 
-load().then((data) => new Page(data).start()).then(() => { document.body.dataset.ready = 'yes'; }, (error) => {
+load().then((data) => {
+  globalThis.papilla = new Page(data);  // for the console of the browser
+  return globalThis.papilla.start();
+}).then(() => { document.body.dataset.ready = 'yes'; }, (error) => {
   problem(`The page can't be shown: ${error.message}`);
   console.error(error);
 });

@@ -4,7 +4,7 @@
 const ink = () => getComputedStyle(document.body).color, line = () => getComputedStyle(document.body).getPropertyValue('--line');
 
 /** @param more what else uPlot shall know of the axis */
-export const axis = (label, more = {}) => ({ label, stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 }, ...more });
+export const axis = (label, more = {}) => ({ label, labelSize: 20, size: label === 'seconds' ? 32 : 46, stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 }, ...more });
 
 /** Whole powers of ten within a logarithmic scale, with 2 and 5 where there are few. */
 export function logSplits(low, high) {
@@ -14,4 +14,4 @@ export function logSplits(low, high) {
 }
 
 /** The marks in a legend are drawn like their curves. */
-export const legend = { markers: { width: 3, dash: (plot, i) => plot.series[i].dash ? 'dashed' : 'solid' } };
+export const legend = { live: false, markers: { width: 3, dash: (plot, i) => plot.series[i].dash ? 'dashed' : 'solid' } };

@@ -2,15 +2,29 @@
 // The scene in 3D: drawn only when something changed.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
-import { bytesOf } from './data.mjs';
-import { applyView, shadingOf, sideOf, uvMatrix } from './shading.mjs';
-
-const GL_WRAP = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
+import { eyePoint } from './eye_point.mjs';
+import { frontOf } from './framing.mjs';
+import { addStudio } from './light.mjs';
+import { applyView, shadingOf, sideOf } from './shading.mjs';
+import { Surface } from './surface.mjs';
+import { environmentTexture, pixelTexture, textureOf } from './textures.mjs';
 
 /** A full frame that takes longer makes moving unpleasant. */
 const SLOW_MS = 30, MOVING_MS = 60;
 const REST_MS = 250, LONGEST_REST_MS = 3000;
+/** Vertical angle of view, and its part where one sits inside: wider, as people look around. */
+const FOV = 40, SEATED_ZOOM = 0.76, NARROW = 1.1;
+/** From where an object without a room is looked at. */
+const OUTSIDE = new THREE.Vector3(0.7, 0.55, 0.9);
+
+/** Whether the browser draws without a graphics card: smoothing of edges then costs as much as all the rest. */
+export function drawsInSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  if (!gl) return false;
+  const known = gl.getExtension('WEBGL_debug_renderer_info'), name = String(gl.getParameter(known ? known.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  gl.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
 
 export function geometryOf(mesh) {
   const { positions, normals, uv, uv1, measured, indices, coarse } = mesh.data;
@@ -28,57 +42,11 @@ export function geometryOf(mesh) {
   return geometry;
 }
 
-/** An equirectangular picture of linear light, coded as RGBE, rows from the top. */
-function environmentTexture({ width, height, rgbe }) {
-  const bytes = bytesOf(rgbe), half = new Uint16Array(4 * width * height), one = THREE.DataUtils.toHalfFloat(1), most = 65504;
-  for (let y = 0; y < height; ++y)
-    for (let x = 0; x < width; ++x) {
-      const from = 4 * (width * y + x), to = 4 * (width * (height - 1 - y) + x), scale = 2 ** (bytes[from + 3] - 136);
-      for (let k = 0; k < 3; ++k) half[to + k] = THREE.DataUtils.toHalfFloat(Math.min(bytes[from + k] * scale, most));
-      half[to + 3] = one;
-    }
-  const texture = new THREE.DataTexture(half, width, height, THREE.RGBAFormat, THREE.HalfFloatType, THREE.EquirectangularReflectionMapping,
-    THREE.RepeatWrapping, THREE.ClampToEdgeWrapping, THREE.LinearFilter, THREE.LinearFilter);
-  texture.needsUpdate = true;
-  return texture;
-}
+/** Of mipmaps: grain of three pixels a wave is still seen. */
+const SHARPER = -0.75;
+const NORMALS = THREE.ShaderChunk.normal_fragment_maps.replaceAll('texture2D( normalMap, vNormalMapUv )', `texture2D( normalMap, vNormalMapUv, ${SHARPER} )`);
 
-async function textureOf(scene, reference, isColour) {
-  const image = reference && scene.images[reference.image];
-  if (!image) return null;
-  const bitmap = await createImageBitmap(new Blob([bytesOf(image.bytes)], { type: image.type }), { colorSpaceConversion: 'none' })
-    .catch(() => null);  // A format that this browser does not know, or a damaged picture: drawn without it.
-  if (!bitmap) return null;
-  return placed(new THREE.Texture(bitmap), reference, isColour);
-}
-
-function placed(texture, reference, isColour) {
-  texture.flipY = false;
-  texture.colorSpace = isColour ? THREE.SRGBColorSpace : THREE.NoColorSpace;
-  [texture.wrapS, texture.wrapT] = reference.wrap.map((w) => GL_WRAP[w] ?? THREE.RepeatWrapping);
-  texture.anisotropy = 4;
-  texture.channel = reference.tex_coord;
-  texture.matrixAutoUpdate = false;
-  texture.matrix.copy(uvMatrix(reference));
-  texture.needsUpdate = true;
-  return texture;
-}
-
-/** Pixels as a texture at a reference's place: `before` with new ones, where it has their size. */
-function pixelTexture(before, pixels, { width, height }, reference, isColour) {
-  if (!pixels) return before?.dispose() ?? null;
-  if (before?.isDataTexture && before.image.width === width && before.image.height === height) {
-    before.image.data = pixels;
-    before.needsUpdate = true;
-    return before;
-  }
-  before?.dispose();
-  const texture = placed(new THREE.DataTexture(pixels, width, height), reference, isColour);
-  texture.magFilter = THREE.LinearFilter;
-  texture.minFilter = THREE.LinearMipmapLinearFilter;
-  texture.generateMipmaps = true;
-  return texture;
-}
+function sharpenGrain(shader) { shader.fragmentShader = shader.fragmentShader.replace('#include <normal_fragment_maps>', NORMALS); }
 
 function standardMaterial(material) {
   if (!material) return new THREE.MeshStandardMaterial({ color: 0x9aa3ad, roughness: 0.8, side: sideOf(material) });
@@ -89,47 +57,46 @@ function standardMaterial(material) {
     depthWrite: !blend, alphaTest: material.alpha_mode === 'MASK' ? material.alpha_cutoff : 0,
   };
   if (material.unlit) return new THREE.MeshBasicMaterial({ ...common, toneMapped: false });
-  return new THREE.MeshStandardMaterial({
+  const standard = new THREE.MeshStandardMaterial({
     ...common, roughness: material.roughness, metalness: material.metallic, emissive: new THREE.Color(...material.emissive),
   });
+  standard.onBeforeCompile = sharpenGrain;
+  return standard;
 }
 
 export class SceneView {
-  /** @param onPick called with {use, mesh, face, point, bary} */
+  /** @param onPick called with a spot of Surface, or null, @param onHover likewise */
   constructor(canvas, scene, onPick, onHover) {
-    Object.assign(this, { canvas, data: scene, onPick, onHover, fullMs: 0 });
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    Object.assign(this, { canvas, data: scene, onPick, onHover, fullMs: 0, marks: [] });
+    this.inSoftware = drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.inSoftware });
     this.ratio = Math.min(window.devicePixelRatio, 2);
     this.renderer.setPixelRatio(this.ratio);
-    this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
+    this.renderer.toneMapping = THREE.NeutralToneMapping;  // keeps colours under white light, unlike curves of film
     this.world = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(40, 1, 0.1, 1e6);
+    this.fov = FOV;
+    this.camera = new THREE.PerspectiveCamera(FOV, 1, 0.1, 1e6);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.moved());
     this.addMeshes();
     this.addLights();
     this.addMarker();
-    this.frameAll();
+    this.resize();
+    this.seat = eyePoint(this.meshes, scene.instances.map((use) => use.name || scene.parts[use.part].name), this.box);
+    this.goHome();
     this.listen();
     new ResizeObserver(() => this.resize()).observe(canvas);
-    this.resize();
     this.loaded = this.loadTextures().catch((error) => { this.textureError = error.message; });
   }
 
-  /** The scene's environment, or a plain room and a sun, and those that materials have of their own. */
+  /** The scene's environment, or the page's studio, and those that materials have of their own. */
   addLights() {
     const generator = new THREE.PMREMGenerator(this.renderer);
     const lights = this.data.environments.map((picture) => generator.fromEquirectangular(environmentTexture(picture)).texture);
     this.data.materials.forEach(({ environment, unlit }, i) => { if (environment !== null && !unlit) this.standard[i].envMap = lights[environment]; });
     this.world.add(this.camera);
-    if (this.data.environment !== null) {
-      this.world.environment = lights[this.data.environment];
-      return;
-    }
-    this.world.environment = generator.fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
-    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
-    sun.position.set(0.4, 0.5, 1);
-    this.camera.add(sun);
+    if (this.data.environment !== null) this.world.environment = lights[this.data.environment];
+    else addStudio(this.world, this.camera, generator);
   }
 
   addMeshes() {
@@ -155,8 +122,11 @@ export class SceneView {
       }
     });
     this.data.levels.forEach((coverages, i) => this.addLevels(coverages, places[i]));
-    this.world.add(this.root);
-    this.root.updateMatrixWorld(true);
+    this.scene = new THREE.Group();  // of mm; a headset shows it in metres
+    this.scene.add(this.root);
+    this.world.add(this.scene);
+    this.scene.updateMatrixWorld(true);
+    this.surface = new Surface(this.meshes);
     this.box = new THREE.Box3().setFromObject(this.root);
     if (this.box.isEmpty()) this.box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
     this.size = this.box.getSize(new THREE.Vector3()).length();
@@ -178,12 +148,12 @@ export class SceneView {
   }
 
   addMarker() {
-    this.marker = new THREE.Mesh(new THREE.SphereGeometry(this.size / 250, 16, 12), new THREE.MeshBasicMaterial({ color: 0xff3030, depthTest: false }));
+    this.marker = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), new THREE.MeshBasicMaterial({ color: 0xff3030, depthTest: false }));
     this.marker.renderOrder = 10;
     this.marker.visible = false;
     this.outline = new THREE.Box3Helper(new THREE.Box3(), 0xff8c00);
     this.outline.visible = false;
-    this.world.add(this.marker, this.outline);
+    this.scene.add(this.marker, this.outline);
   }
 
   /** A mirror ball in the light of the textured view, as sRGB rows from the top. */
@@ -259,26 +229,96 @@ export class SceneView {
 
   select(use, frame) {
     const box = new THREE.Box3();
-    for (const object of this.meshes) if (object.userData.use === use) box.expandByObject(object);
+    for (const { object, toScene } of this.surface.places) if (object.userData.use === use) box.union(object.geometry.boundingBox.clone().applyMatrix4(toScene));
     this.outline.visible = !box.isEmpty();
     if (box.isEmpty()) return;
     this.outline.box.copy(box);
-    this.selected = box;
-    if (frame) this.frame(box, 1.25);
+    this.selected = { use, box };
+    if (frame) this.frameSelected();
     this.invalidate();
   }
 
   mark(use, mesh, local) {
-    const object = this.meshes.find((o) => o.userData.use === use && o.userData.mesh === mesh);
-    this.marker.position.copy(local).applyMatrix4(object.matrixWorld);
+    const { toScene } = this.surface.places.find(({ object: { userData } }) => userData.use === use && userData.mesh === mesh);
+    this.marker.position.copy(local).applyMatrix4(toScene);
     this.marker.visible = true;
     this.invalidate();
   }
 
+  /** Shows the front of the selected part, or everything. */
+  frameSelected() {
+    if (!this.selected) return this.frameAll();
+    const { use, box } = this.selected, from = this.camera.position.clone().sub(box.getCenter(new THREE.Vector3())).normalize();
+    this.stand();
+    const front = frontOf(this.surface, use, from, 1.25 * this.distanceTo(box, from));
+    this.camera.position.copy(this.controls.target).add(front);
+    return this.frame(box, 1.25);
+  }
+
+  /** The first view: from the driver's place, or the whole of an object. */
+  goHome() {
+    if (!this.seat) return this.frameAll();
+    this.seated = true;
+    this.controls.enableZoom = this.controls.enablePan = false;
+    this.controls.rotateSpeed = -0.35;  // the hand takes the picture along
+    this.camera.zoom = SEATED_ZOOM * Math.min(1, this.camera.aspect / NARROW);
+    this.camera.position.copy(this.seat.eye);
+    this.controls.target.copy(this.seat.eye).addScaledVector(this.seat.look, this.size * 1e-3);
+    this.settle();
+  }
+
+  /** Gets up: the camera turns around what it looks at from now on. */
+  stand() {
+    if (this.seated) this.controls.target.sub(this.camera.position).setLength(this.size / 4).add(this.camera.position);
+    this.seated = false;
+    this.controls.enableZoom = this.controls.enablePan = true;
+    this.controls.rotateSpeed = 1;
+    this.camera.zoom = 1;
+  }
+
   frameAll() {
-    this.camera.position.copy(new THREE.Vector3(0.7, 0.55, 0.9));
-    this.resize();
+    this.stand();
+    const ahead = this.seat?.ahead, from = OUTSIDE.clone();
+    if (ahead) from.set(-ahead.x, 0, -ahead.z).addScaledVector(new THREE.Vector3(ahead.z, 0, -ahead.x), 0.8).setY(0.9);  // from behind and above
+    this.camera.position.copy(this.controls.target).add(from);
     this.frame(this.box, 1.03);
+  }
+
+  /** The uses that are seen, by how much of the picture they take. */
+  seen() {
+    const shares = new Map(), { ray } = this.caster ??= new THREE.Raycaster();
+    this.camera.updateMatrixWorld();
+    for (let i = 0; i < 81; ++i) {
+      this.caster.setFromCamera(new THREE.Vector2((i % 9 - 4) / 5, (Math.floor(i / 9) - 4) / 5), this.camera);
+      const use = this.surface.meet(ray.origin, ray.direction)?.use;
+      if (use !== undefined) shares.set(use, (shares.get(use) ?? 0) + 1);
+    }
+    return [...shares.entries()].sort((a, b) => b[1] - a[1]).map(([use]) => use);
+  }
+
+  /** @param distance of what is turned around */
+  lookFrom(eye, look, distance, zoom) {
+    this.stand();
+    this.camera.zoom = zoom;
+    this.camera.position.copy(eye);
+    this.controls.target.copy(eye).addScaledVector(look, distance);
+    this.settle();
+  }
+
+  /** What is seen now as a JPEG in a data URL. */
+  picture(width) {
+    this.draw();
+    const small = Object.assign(document.createElement('canvas'), { width, height: Math.round(width * this.canvas.height / this.canvas.width) });
+    small.getContext('2d').drawImage(this.canvas, 0, 0, small.width, small.height);
+    return small.toDataURL('image/jpeg', 0.8);
+  }
+
+  settle() {
+    this.camera.near = this.size / 2000;
+    this.camera.far = this.size * 20;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.moved();
   }
 
   /** How far from its centre the camera must be, on the way that it is, to see the whole box. */
@@ -294,56 +334,92 @@ export class SceneView {
   }
 
   frame(box, margin) {
+    this.stand();
     const centre = box.getCenter(new THREE.Vector3()), direction = this.camera.position.clone().sub(this.controls.target).normalize();
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(direction, margin * this.distanceTo(box, direction));
-    this.camera.near = this.size / 2000;
-    this.camera.far = this.size * 20;
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
-    this.invalidate();
+    this.settle();
   }
 
-  hitAt(event) {
-    const { left, top, width, height } = this.canvas.getBoundingClientRect();
-    const ray = new THREE.Raycaster();
-    ray.setFromCamera(new THREE.Vector2((event.clientX - left) / width * 2 - 1, 1 - (event.clientY - top) / height * 2), this.camera);
-    const [hit] = ray.intersectObjects(this.meshes.filter(({ parent }) => parent.visible), false);
-    if (!hit) return null;
-    const { use, mesh } = hit.object.userData;
-    return { use, mesh, face: hit.faceIndex, local: hit.object.worldToLocal(hit.point.clone()), uv: hit.uv, bary: hit.barycoord };
+  /** The spot that is seen at a place of the canvas. */
+  hitAt({ clientX, clientY }) {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect(), { ray } = this.caster ??= new THREE.Raycaster();
+    this.caster.setFromCamera(new THREE.Vector2((clientX - left) / width * 2 - 1, 1 - (clientY - top) / height * 2), this.camera);
+    return this.surface.meet(ray.origin, ray.direction);
   }
 
   listen() {
+    const { canvas } = this;
     let down = null, waiting = false;
-    this.canvas.addEventListener('pointerdown', (e) => { down = e; });
-    this.canvas.addEventListener('pointerup', (e) => {
-      if (down && Math.hypot(e.clientX - down.clientX, e.clientY - down.clientY) < 4) this.onPick(this.hitAt(e));
+    // Before the camera's own listeners, which take the pointer.
+    canvas.addEventListener('pointerdown', (e) => {
+      down = e;
+      const spot = this.touch && e.button === 0 ? this.hitAt(e) : null;
+      if (!spot) return;
+      this.touching = e.pointerId;
+      canvas.setPointerCapture(e.pointerId);
+      e.stopImmediatePropagation();
+      this.touch(spot);
+    }, { capture: true });
+    canvas.addEventListener('pointerup', (e) => {
+      const still = down && Math.hypot(e.clientX - down.clientX, e.clientY - down.clientY) < 4;
       down = null;
+      if (this.touching === e.pointerId) {
+        this.touching = undefined;
+        this.touch(null);
+      } else if (still) this.onPick(this.hitAt(e));
     });
-    this.canvas.addEventListener('pointermove', (e) => {
+    canvas.addEventListener('pointercancel', () => {
+      if (this.touching !== undefined) this.touch(null);
+      this.touching = undefined;
+    });
+    canvas.addEventListener('pointermove', (e) => {
+      if (this.touching === e.pointerId) return this.touch(this.hitAt(e));
       if (e.buttons || waiting) return;
       waiting = true;
       requestAnimationFrame(() => { waiting = false; this.onHover(this.hitAt(e)); });
     });
-    this.canvas.addEventListener('keydown', (e) => this.onKey(e));
+    canvas.addEventListener('wheel', (e) => {
+      if (!this.seated) return;
+      e.preventDefault();
+      this.zoomBy(e.deltaY < 0 ? 1.1 : 1 / 1.1);
+    }, { passive: false });
+    canvas.addEventListener('keydown', (e) => this.onKey(e));
+  }
+
+  /** Nearer by a factor; seated, by a narrower view. */
+  zoomBy(factor) {
+    if (this.seated) {
+      this.camera.zoom = Math.min(Math.max(this.camera.zoom * factor, 0.4), 8);
+      this.camera.updateProjectionMatrix();
+    } else {
+      this.camera.position.sub(this.controls.target).divideScalar(factor).add(this.controls.target);
+      this.controls.update();
+    }
+    this.moved();
   }
 
   onKey(event) {
     const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const sphere = new THREE.Spherical().setFromVector3(offset);
+    const offset = this.camera.position.clone().sub(this.controls.target), key = event.key.toLowerCase();
     if (turn) {
-      sphere.theta += turn[0] * 0.1;
-      sphere.phi = Math.min(Math.max(sphere.phi + turn[1] * 0.1, 0.05), Math.PI - 0.05);
-    } else if (event.key === '+' || event.key === '-') sphere.radius *= event.key === '+' ? 0.85 : 1.18;
-    else if (event.key === 'f' || event.key === 'F') return this.frame(this.selected ?? this.box, 1.25);
-    else if (event.key === 'Home') return this.frameAll();
+      const sphere = new THREE.Spherical().setFromVector3(offset), way = this.seated ? -0.08 : 0.1;
+      sphere.theta += turn[0] * way;
+      sphere.phi = Math.min(Math.max(sphere.phi + turn[1] * way, 0.05), Math.PI - 0.05);
+      this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(sphere));
+      if (this.seated) {  // the head stays
+        const target = this.controls.target.clone().sub(this.camera.position);
+        this.camera.position.copy(this.seat.eye);
+        this.controls.target.copy(this.seat.eye).add(target);
+      }
+      this.controls.update();
+      this.moved();
+    } else if (key === '+' || key === '-') this.zoomBy(key === '+' ? 1.18 : 1 / 1.18);
+    else if (key === 'f') this.frameSelected();
+    else if (key === 'o') this.frameAll();
+    else if (key === 'home') this.goHome();
     else return;
     event.preventDefault();
-    this.camera.position.copy(this.controls.target).add(new THREE.Vector3().setFromSpherical(sphere));
-    this.controls.update();
-    this.moved();
   }
 
   /** While the camera moves, a slow machine draws the coarse triangles in half the resolution, down to a quarter where a
@@ -370,7 +446,7 @@ export class SceneView {
 
   resize() {
     const { clientWidth, clientHeight } = this.canvas;
-    if (!clientWidth || !clientHeight) return;
+    if (!clientWidth || !clientHeight || this.renderer.xr.isPresenting) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
@@ -378,18 +454,24 @@ export class SceneView {
   }
 
   invalidate() {
-    if (this.pending) return;
+    if (this.pending || this.renderer.xr.isPresenting) return;
     this.pending = true;
     requestAnimationFrame(() => { this.pending = false; this.draw(); });
   }
 
   draw() {
     const start = performance.now();
+    if (this.renderer.xr.isPresenting) return;
+    this.marker.scale.setScalar(0.006 * this.marker.position.distanceTo(this.camera.position) / this.camera.zoom);
     this.beforeDraw?.();
+    for (const mark of this.marks) mark.fit();  // of the same size on the screen wherever the camera is
     this.renderer.render(this.world, this.camera);
     this.frames = (this.frames ?? 0) + 1;
     this.canvas.dataset.frames = this.frames;
-    this.canvas.dataset.triangles = this.renderer.info.render.triangles;
+    Object.assign(this.canvas.dataset, {
+      triangles: this.renderer.info.render.triangles, seat: this.seat?.kind ?? 'none', seated: this.seated,
+      camera: this.camera.position.toArray().map((c) => c.toFixed(1)), look: this.camera.getWorldDirection(new THREE.Vector3()).toArray().map((c) => c.toFixed(3)),
+    });
     this.onDrawn?.();
     if (this.frames < 3 || this.coarse) return;
     const gl = this.renderer.getContext();

@@ -80,8 +80,8 @@ function fillPlan({ scene, report }) {
   host.append(element('h3', {}, 'Left out, and why'), table([
     { title: 'reason', of: (r) => r.reason }, { title: 'stages', of: (r) => [...r.stages].join(', ') },
     { title: 'parts', numeric: true, of: (r) => r.parts.size }, { title: 'which', of: (r) => [...r.parts].slice(0, 12).join(', ') + (r.parts.size > 12 ? ', …' : '') }], leftOut(rows)));
-  const mark = ({ run, reason }) => element('span', { title: reason }, run ? '✓ done' : '– left out');
-  host.append(element('h3', {}, 'Part by part'), table([{ title: 'part', of: (r) => r.part }, { title: 'material', of: (r) => r.material ?? '' },
+  const mark = ({ run, reason }) => element('span', { title: reason, role: 'img', 'aria-label': run ? 'done' : 'left out' }, run ? '✓' : '–');
+  host.append(element('h3', {}, 'Part by part'), element('p', { class: 'note' }, '✓ done, – left out; the tooltip says why.'), table([{ title: 'part', of: (r) => r.part }, { title: 'material', of: (r) => r.material ?? '' },
     ...stages.map((stage) => ({ title: stage.replaceAll('_', ' '), of: (r) => r.stages[stage] ? mark(r.stages[stage]) : '' }))], rows));
 }
 
@@ -130,7 +130,7 @@ function fillTimings({ report }) {
   if (!report?.seconds) return host.append('Nothing was computed for this page but the page.');
   const rows = Object.entries(report.seconds).sort((a, b) => b[1] - a[1]), longest = Math.max(...rows.map(([, s]) => s), 1e-9);
   host.append(table([{ title: 'stage', of: ([name]) => name.replaceAll('_', ' ') }, { title: 'seconds', numeric: true, of: ([, s]) => number(s) },
-    { title: 'share of the longest', of: ([, s]) => element('span', { class: 'bar', style: `width:${Math.max(1, 300 * s / longest)}px` }) }], rows));
+    { title: 'share of the longest', of: ([, s]) => element('span', { class: 'bar-mark', style: `width:${Math.max(1, 300 * s / longest)}px` }) }], rows));
   host.append(element('p', { class: 'note' }, 'Stages that run in parallel count the time of all their threads, so they can add up to more than the total.'));
 }
 

@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: MIT
-// The probe that slides over a relief under the mouse, its force as numbers, curve and sound.
+// The probe that slides over the surface of the scene or over one repeat of a relief; its force as numbers, curves and sound.
 import uPlot from 'uplot';
-import { number } from './colour.mjs';
+import { curve, number } from './colour.mjs';
 import { forceAt, surfaceOf } from './force.mjs';
+import { LiveMarks } from './live_marks.mjs';
 import { axis, legend } from './plot_look.mjs';
+import { reliefSpot } from './relief_spot.mjs';
 import { drawRelief } from './relief_picture.mjs';
 import { Sound } from './sound.mjs';
 
 const $ = (id) => document.getElementById(id);
-const KEPT = 400;
+const KEPT = 400, PLOT_HEIGHT = 170;
+/** A way in the relief that is longer than on the surface by this factor crosses a border of charts. */
+const JUMP = 3, JUMP_MM = 1;
 
-const feelsLike = (a, b) => a.height === b.height && a.haptic.stiffness === b.haptic.stiffness && a.haptic.backing?.stiffness === b.haptic.backing?.stiffness;
+export const feelsLike = (a, b) => a.height === b.height && a.haptic.stiffness === b.haptic.stiffness && a.haptic.backing?.stiffness === b.haptic.backing?.stiffness;
+
+const nameOf = (material) => (material.name || `material ${material.index}`).replace(/ #[0-9A-Fa-f]{6,8}$/, '');
 
 export class Touch {
   constructor(scene, reasonOff) {
+    this.scene = scene;
     this.materials = scene.materials.filter((m) => m.relief).filter((m, i, all) => all.findIndex((o) => feelsLike(o, m)) === i);
     if (reasonOff || !this.materials.length) {
       $('touch-on').hidden = true;
       $('touch-off').hidden = false;
       $('touch-off').textContent = `Nothing to touch: ${reasonOff ?? 'no height map'}.`;
+      $('touch-mode').disabled = true;
       return;
     }
     this.samples = [];
@@ -32,16 +40,27 @@ export class Touch {
     canvas.addEventListener('pointermove', (e) => this.move(e.offsetX / canvas.clientWidth, e.offsetY / canvas.clientHeight));
     canvas.addEventListener('pointerleave', () => this.lift());
     canvas.addEventListener('keydown', (e) => this.key(e));
-    new ResizeObserver(() => this.plot.setSize({ width: $('force-plot').clientWidth, height: 260 })).observe($('force-plot'));
+    new ResizeObserver(() => { if ($('force-plot').clientWidth) this.plot.setSize({ width: $('force-plot').clientWidth, height: PLOT_HEIGHT }); }).observe($('force-plot'));
     this.choose(0);
   }
 
+  /** The mouse presses on the surface of the scene while `on`. */
+  useScene(three, on) {
+    if (!this.samples || !three) return;
+    this.marks ??= new LiveMarks(three);
+    this.three = three;
+    three.touch = on ? (spot) => this.probe(spot) : null;
+    three.canvas.dataset.mode = on ? 'touch' : 'look';
+    if (!on) this.probe(null);
+  }
+
+  /** A curve a material: normal force, and thin the friction. */
   makePlot() {
+    const series = this.materials.flatMap((m, i) => [{ ...curve(i), label: `${nameOf(m)} [N]` }, { ...curve(i), width: 1, label: 'friction [N]' }]);
     this.plot = new uPlot({
-      width: Math.max($('force-plot').clientWidth, 200), height: 260, legend, scales: { x: { time: false } },
-      series: [{ label: 'seconds' }, { label: 'normal force [N]', stroke: '#1b7fd6', width: 2 }, { label: 'friction [N]', stroke: '#d9730d', width: 2, dash: [6, 4] }],
-      axes: [axis('seconds'), axis('newtons')],
-    }, [[], [], []], $('force-plot'));
+      width: Math.max($('force-plot').clientWidth, 200), height: PLOT_HEIGHT, legend, scales: { x: { time: false } },
+      series: [{ label: 'seconds' }, ...series.map((s, i) => ({ ...s, show: i < 2, spanGaps: false }))], axes: [axis('seconds'), axis('newtons')],
+    }, [[], ...series.map(() => [])], $('force-plot'));
   }
 
   /** Lays the relief of a picked material under the probe, if it has one. */
@@ -54,8 +73,10 @@ export class Touch {
 
   choose(index) {
     const material = this.chosen = this.materials[index];
+    this.index = index;
     this.surface = surfaceOf(material);
     this.lift();
+    for (const i of [1, 2]) if (!this.plot.series[2 * index + i].show) this.plot.setSeries(2 * index + i, { show: true });
     const { relief, size } = this.surface;
     this.image = document.createElement('canvas');
     this.image.width = this.image.height = 448;
@@ -75,6 +96,7 @@ export class Touch {
   lift() {
     this.last = null;
     this.sound.lift();
+    if (this.samples.length) this.samples.push([NaN]);  // a gap of the curves
   }
 
   /** After a change of colours. */
@@ -89,7 +111,7 @@ export class Touch {
     const on = $('listen').getAttribute('aria-pressed') !== 'true';
     await (on ? this.sound.start() : this.sound.stop());
     $('listen').setAttribute('aria-pressed', String(on));
-    $('listen').textContent = on ? 'Silence' : 'Listen';
+    $('listen-text').textContent = on ? 'Silence' : 'Listen';
   }
 
   key(event) {
@@ -103,26 +125,63 @@ export class Touch {
   }
 
   /** @param x, y shares of the picture */
-  move(x, y) {
-    const now = performance.now() / 1000, at = [x * this.surface.size[0], y * this.surface.size[1]];
-    this.position = [x, y];
+  move(x, y) { this.slide([x * this.surface.size[0], y * this.surface.size[1]]); }
+
+  /** The probe presses on a spot of the scene, or leaves it. */
+  probe(spot) {
+    const { material, ratio } = spot ? this.compare?.at(spot) ?? { material: this.scene.materials[spot.mesh.material] } : {};
+    if (!material?.relief) {
+      this.lift();
+      this.marks?.hide();
+      $('force-total').value = spot ? 'no relief here' : '0 N';
+      return;
+    }
+    this.follow(material);
+    const place = reliefSpot(material, this.surface, spot, ratio);
+    if (!place) return;
+    if (this.last?.point && Math.hypot(...place.at.map((p, i) => p - this.last.at[i])) > JUMP * this.last.point.distanceTo(spot.point) + JUMP_MM) this.lift();
+    const { force, height } = this.slide(place.at, spot.point);
+    const [fx, fy, fz] = force, [x, y] = place.axes, { mean } = this.surface;
+    const inScene = x.clone().multiplyScalar(fx).addScaledVector(y, fy).addScaledVector(spot.normal, fz);
+    this.strongest = Math.max(this.strongest ?? 0, inScene.length());
+    const metres = (depth) => spot.point.clone().addScaledVector(spot.normal, depth).divideScalar(1000).toArray();
+    this.marks.show({ probe: metres(-this.depth), proxy: metres(height - mean), force: inScene.toArray(), contact: inScene.lengthSq() > 0 }, this.strongest, false);
+  }
+
+  /** @param at mm in the relief, repeats counted on, @param point where that is on the surface, if it is on one */
+  slide(at, point) {
+    const now = performance.now() / 1000, { size } = this.surface;
+    this.position = at.map((p, i) => (p / size[i] % 1 + 1) % 1);
     const seconds = this.last ? Math.max(now - this.last.time, 1e-3) : 0;
     const fresh = !this.last || seconds > 0.5;
     const v = fresh ? [0, 0] : at.map((p, i) => (p - this.last.at[i]) / seconds);
     if (fresh) this.sound.lift();
     this.sound.play(this.surface, at, now, this.depth);
     const result = forceAt(this.surface, ...at, this.depth, ...v);
-    this.last = { at, time: now };
+    this.last = { at, time: now, point };
     this.start ??= now;
-    this.samples.push([now - this.start, result.normal, result.friction, ...at, result.height]);
+    this.samples.push([now - this.start, this.index, result.normal, result.friction, ...at, result.height]);
     if (this.samples.length > KEPT) this.samples.shift();
-    $('force-total').value = `${result.total.toFixed(4)} N`;
-    $('force-normal').textContent = `${result.normal.toFixed(4)} N`;
-    $('force-side').textContent = `${result.force[0].toFixed(4)}, ${result.force[1].toFixed(4)} N`;
-    $('force-height').textContent = `${result.height.toFixed(5)} mm`;
+    $('force-total').value = `${result.total.toFixed(3)} N`;
+    $('force-normal').textContent = `${result.normal.toFixed(3)} N`;
+    $('force-side').textContent = `${result.force[0].toFixed(3)}, ${result.force[1].toFixed(3)} N`;
+    $('force-height').textContent = `${result.height.toFixed(4)} mm`;
     $('force-speed').textContent = `${Math.hypot(...v).toFixed(1)} mm/s`;
     this.show();
-    this.plot.setData([0, 1, 2].map((k) => this.samples.map((s) => s[k])));
+    this.plotSoon();
+    return result;
+  }
+
+  plotSoon() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      let time = 0;
+      const times = this.samples.map(([t]) => time = Number.isNaN(t) ? time + 1e-3 : t);
+      const columns = this.materials.flatMap((_, i) => [2, 3].map((k) => this.samples.map((s) => s[1] === i ? s[k] : null)));
+      this.plot.setData([times, ...columns]);
+    });
   }
 
   show() {
@@ -140,6 +199,7 @@ export class Touch {
   }
 
   csv() {
-    return ['seconds,normal_n,friction_n,x_mm,y_mm,height_mm', ...(this.samples ?? []).map((s) => s.join(','))].join('\n') + '\n';
+    const rows = (this.samples ?? []).filter(([t]) => !Number.isNaN(t)).map(([t, material, ...rest]) => [t, ...rest, `"${this.materials[material].name.replaceAll('"', '""')}"`]);
+    return ['seconds,normal_n,friction_n,x_mm,y_mm,height_mm,material', ...rows.map((row) => row.join(','))].join('\n') + '\n';
   }
 }

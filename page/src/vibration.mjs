@@ -3,7 +3,9 @@
 // No page in here, so that it can be tested alone.
 import { forceAt, sample } from './force.mjs';
 
-const LOW_HZ = 20, HIGH_HZ = 1000, FADE_S = 5e-3, RIPPLE_DB = 0.1, SECTIONS = 4, MASS_KG = 0.02, LEAST_LOAD_N = 1e-3;
+const LOW_HZ = 20, HIGH_HZ = 1000, FADE_S = 5e-3, RIPPLE_DB = 0.1, SECTIONS = 4, LEAST_LOAD_N = 1e-3;
+/** Of what follows the surface. */
+export const MASS_KG = 0.02;
 /** m/s² that become 1. */
 export const FULL_SCALE = 50;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The views: what is drawn, over which range, and why a view is off.
 import { mmPerUv } from './data.mjs';
-import { number } from './colour.mjs';
 
 const NO_UV = 'no part has texture coordinates';
 const NO_TAG = 'no material has a haptic tag (extras.haptic): the file was not baked by Papilla, or the tag was lost';
@@ -13,12 +12,12 @@ export const texturePx = (material) => material?.relief?.width ?? 1024;
 export const VIEWS = [
   { id: 'textured', name: 'textured', kind: 0 },
   { id: 'checker', name: 'checker', kind: 1, needs: 'uv' },
-  { id: 'stretch', name: 'stretch', kind: 2, needs: 'uv', column: 0, unit: '', log: true, centre: 1, what: 'stretch L2, 1 is none' },
-  { id: 'angle', name: 'angle', kind: 3, needs: 'uv', column: 1, unit: '°', what: 'error of the corner angles' },
-  { id: 'density', name: 'texel density', kind: 4, needs: 'uv', column: 2, unit: 'texels/mm', log: true, what: 'texel density (1024 px a repeat where there is no height map)' },
-  { id: 'stiffness', name: 'stiffness', kind: 5, needs: 'tag', unit: 'N/m', what: 'stiffness', of: (tag) => tag.stiffness ?? 500 },
-  { id: 'friction', name: 'friction', kind: 5, needs: 'tag', unit: '', what: 'dynamic friction', of: (tag) => tag.dynamicFriction ?? tag.staticFriction ?? 0 },
-  { id: 'height', name: 'height', kind: 6, needs: 'map', unit: 'mm', what: 'height of the relief' },
+  { id: 'stretch', name: 'stretch', kind: 2, needs: 'uv', column: 0, unit: '', log: true, centre: 1, what: 'Stretch L2 (1: none)' },
+  { id: 'angle', name: 'angle', kind: 3, needs: 'uv', column: 1, unit: '°', what: 'Error of corner angles' },
+  { id: 'density', name: 'texel density', kind: 4, needs: 'uv', column: 2, unit: 'texels/mm', log: true, what: 'Texel density (1024 px a repeat without height map)' },
+  { id: 'stiffness', name: 'stiffness', kind: 5, needs: 'tag', unit: 'N/m', what: 'Stiffness', of: (tag) => tag.stiffness ?? 500 },
+  { id: 'friction', name: 'friction', kind: 5, needs: 'tag', unit: '', what: 'Dynamic friction', of: (tag) => tag.dynamicFriction ?? tag.staticFriction ?? 0 },
+  { id: 'height', name: 'height', kind: 6, needs: 'map', unit: 'mm', what: 'Height of the relief' },
 ];
 
 /** Why a view can't be shown, or nothing. */
@@ -72,10 +71,13 @@ export function rangeOf(view, scene) {
   return [0, Math.max(high, 1)];
 }
 
-export function legendText(view, range, checker) {
+/** The value at a share of the view's scale. */
+export const valueAt = (view, [low, high], t) => view.log ? low * (high / low) ** t : low + (high - low) * t;
+
+export function legendText(view, checker) {
   if (view.id === 'textured') return 'as it is seen';
   if (view.id === 'checker') return checker;
-  return `${view.what}: ${`${number(range[0])} to ${number(range[1])} ${view.unit}`.trim()}; a line every tenth of the scale, hatched where there is no value`;
+  return 'A line every tenth of the scale; hatched where there is no value.';
 }
 
-export const checkerText = (scene) => scene.materials.some(mmPerUv) ? 'squares of 10 mm; of an eighth of a repeat where the file gives no size' : 'squares of an eighth of a repeat; the file gives no size in mm';
+export const checkerText = (scene) => scene.materials.some(mmPerUv) ? 'Squares of 10 mm; of an eighth of a repeat where the file gives no size.' : 'Squares of an eighth of a repeat; the file gives no size in mm.';

@@ -48,7 +48,7 @@ function hdr(width, light) {
     for (let x = 0; x < width; ++x) {
       const longitude = 2 * Math.PI * ((x + 0.5) / width - 0.5), latitude = Math.PI * (0.5 - (y + 0.5) / height);
       const d = [Math.cos(latitude) * Math.cos(longitude), Math.sin(latitude), Math.cos(latitude) * Math.sin(longitude)];
-      if (dot(d, light) > 0.97) pixels.set([0, 128, 0, 132], 4 * (width * y + x));  // 8
+      if (dot(d, light) > 0.97) pixels.set([0, 128, 0, 129], 4 * (width * y + x));  // 1
     }
   return Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`), pixels]);
 }

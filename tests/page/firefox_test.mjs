@@ -97,6 +97,7 @@ try {
     await session.until(`Number(document.getElementById('canvas3d').dataset.frames) > ${frames}`);
     assert.equal(await session.value("document.getElementById('canvas3d').dataset.view"), view);
   }
+  await session.value("document.getElementById('tab-touch').click()");
   await session.value("for (const x of [100, 140, 180]) document.getElementById('relief').dispatchEvent(new PointerEvent('pointermove', { clientX: x + document.getElementById('relief').getBoundingClientRect().x, clientY: 150 + document.getElementById('relief').getBoundingClientRect().y }))");
   assert.ok(parseFloat(await session.value("document.getElementById('force-total').value")) >= 0);
   assert.notEqual(await session.value("document.getElementById('force-height').textContent"), '–');

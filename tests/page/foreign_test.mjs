@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { deflateSync } from 'node:zlib';
-import { folder, launch, open, text } from './browser.mjs';
+import { backgroundOf, folder, launch, middleOf, open, text } from './browser.mjs';
 
 const [papilla, place] = process.argv.slice(2);
 const browser = await launch();
@@ -64,19 +64,6 @@ function unlit({ uri = RED_BLUE, extension = null, color = [1, 1, 1, 1] }) {
   return model;
 }
 
-/** The colour in the middle of the scene, sRGB. */
-async function middleOf(page) {
-  await page.waitForSelector('#canvas3d[data-textures=loaded]');
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));  // is drawn with them
-  const picture = (await page.locator('#canvas3d').screenshot()).toString('base64');
-  return page.evaluate(async (base64) => {
-    const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }));
-    const context = Object.assign(document.createElement('canvas'), { width: bitmap.width, height: bitmap.height }).getContext('2d');
-    context.drawImage(bitmap, 0, 0);
-    return [...context.getImageData(bitmap.width >> 1, bitmap.height >> 1, 1, 1).data.slice(0, 3)];
-  }, picture);
-}
-
 function assertColour(found, wanted) {
   assert.ok(found.every((value, i) => Math.abs(value - wanted[i]) <= 3), `${found} instead of ${wanted}`);
 }
@@ -130,7 +117,7 @@ try {
       const { page, complaints } = await view(name, model);
       for (const kind of ['textured', 'checker']) {
         await page.locator(`#view-${kind}`).check();
-        const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).map(Number));
+        const background = await backgroundOf(page);
         const found = await middleOf(page), isBackground = found.every((value, i) => Math.abs(value - background[i]) <= 3);
         assert.equal(isBackground, !drawn, `${name}, ${kind}: ${found} on ${background}`);
       }

@@ -131,6 +131,8 @@ try {
   const waiting = await waitingClients(url);
   const { page, complaints } = await openUrl(browser, url);
   await follows(page);
+  const curve = await page.locator('#live-plot').boundingBox();
+  assert.ok(curve.y > 0 && curve.y + curve.height < page.viewportSize().height && await page.evaluate(() => scrollY) === 0, 'the curve is above the fold');
   for (const seen of await Promise.all([samples(url, 30), samples(url, 30)])) assert.ok(seen.length > 30);
   for (const socket of waiting) socket.destroy();
   await page.screenshot({ path: join(pictures, 'live.png') });

@@ -35,10 +35,11 @@ const meanColour = (page) => page.evaluate(async () => {
   const canvas = document.getElementById('canvas3d');
   const frame = Number(canvas.dataset.frames);
   canvas.dispatchEvent(new KeyboardEvent('keydown', { key: 'Home' }));
-  const { width, height } = canvas, small = new OffscreenCanvas(64, 64), context = small.getContext('2d');
+  const small = new OffscreenCanvas(64, 64), context = small.getContext('2d');
   await new Promise((resolve) => {
     const look = () => {
       if (Number(canvas.dataset.frames) <= frame) return requestAnimationFrame(look);
+      const { width, height } = canvas;  // of this frame: smaller while the camera moves
       context.drawImage(canvas, width / 4, height / 4, width / 2, height / 2, 0, 0, 64, 64);  // in the frame that drew it
       return resolve();
     };

@@ -33,6 +33,7 @@ async function pick(page) {
   await page.waitForFunction(() => / uv /.test(document.getElementById('picked').textContent));
   const in3d = await text(page, '#picked');
   const part = in3d.split(':')[0];
+  await page.locator('#tab-uv').click();
   const uv = await page.locator('#canvasuv').boundingBox();
   let linked = in3d;
   for (const [x, y] of [[0.5, 0.5], [0.4, 0.4], [0.6, 0.6], [0.3, 0.5], [0.5, 0.3]]) {
@@ -45,6 +46,7 @@ async function pick(page) {
 }
 
 async function touch(page) {
+  await page.locator('#tab-touch').click();
   await page.locator('#relief').scrollIntoViewIfNeeded();
   const box = await page.locator('#relief').boundingBox(), forces = new Set();
   for (let i = 0; i <= 40; ++i) {
@@ -69,6 +71,7 @@ async function touch(page) {
 }
 
 async function downloads(page) {
+  await page.locator('#tab-files').click();
   for (const name of ['report.json', 'scene.json', 'distortion.csv', 'plan.csv', 'force.csv']) {
     const [got] = await Promise.all([page.waitForEvent('download'), page.locator(`[data-file="${name}"]`).click()]);
     const content = readFileSync(await got.path(), 'utf8');
