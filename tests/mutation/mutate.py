@@ -1,0 +1,351 @@
+# SPDX-License-Identifier: MIT
+"""Puts single faults into a copy of the sources and looks whether the tests notice: docs/mutation.md.
+
+usage: mutate.py ROOT [PATTERN] [--list] [--jobs N] [--json FILE]
+
+ROOT is a git repository with
+  tests/mutation/faults/*.jsonl   one fault a line: id, file, find (occurs once in the file), replace, why
+  tests/mutation/project.json     how the copy is configured and built, and which programs test which folder
+What is made lies in ROOT/build/mutation: the copy, the times of the programs, results.jsonl.
+Exit codes: 0 done, survivors or not; 1 the list, the build or the tests without a fault are wrong; 2 usage; 130 interrupted.
+"""
+import argparse
+import hashlib
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+FIELDS = ("id", "file", "find", "replace", "why")
+TIMES_UNMUTATED = 3  # A fault may make a loop endless.
+LEAST_SECONDS = 10  # Starting a short program takes longer on a busy machine.
+COMPILER_SAYS = re.compile(r"\berror:|undefined reference|multiple definition")
+FAILED_CASE = re.compile(r"^\[  FAILED  \] (\S+?)[,. ]*(?:\(|$|,| where)", re.MULTILINE)
+
+
+class Wrong(Exception):
+    """The list, the build or the tests without a fault are wrong."""
+
+
+def digest(data):
+    return hashlib.sha256(data).hexdigest()
+
+
+class Project:
+    """The list of faults and the table of tests."""
+
+    def __init__(self, root):
+        self.root = root
+        folder = root / "tests" / "mutation"
+        self.table = json.loads((folder / "project.json").read_text())
+        self.faults, self.breaches = [], []
+        for file in sorted((folder / "faults").glob("*.jsonl")):
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                self.take(line, f"{file.relative_to(root)}:{number}", file.stem)
+
+    def take(self, line, place, folder):
+        try:
+            fault = json.loads(line)
+        except json.JSONDecodeError as error:
+            return self.breaches.append(f"{place}: {error}")
+        if not isinstance(fault, dict) or set(fault) != set(FIELDS) or not all(isinstance(v, str) for v in fault.values()):
+            return self.breaches.append(f"{place}: expected an object of the strings {', '.join(FIELDS)}")
+        if any(not fault[key] for key in FIELDS if key != "replace"):
+            return self.breaches.append(f"{place}: only 'replace' may be empty")
+        fault.update(place=place, folder=folder, line=digest(line.encode()))
+        self.faults.append(fault)
+
+    def programs_of(self, file):
+        """Names of the programs in the row with the longest path that `file` lies in."""
+        rows = [row for row in self.table["tests_of"] if file == row or file.startswith(row + "/")]
+        return self.table["tests_of"][max(rows, key=len)] if rows else []
+
+    def check(self, tree):
+        """Every breach of the list against the sources in `tree`, one line each."""
+        breaches, seen = list(self.breaches), {}
+        for fault in self.faults:
+            place, file = fault["place"], tree / fault["file"]
+            if fault["id"] in seen:
+                breaches.append(f"{place}: '{fault['id']}' is the id of {seen[fault['id']]}, too")
+            seen.setdefault(fault["id"], place)
+            if not self.programs_of(fault["file"]):
+                breaches.append(f"{place}: no row of tests_of has {fault['file']}")
+            if fault["find"] == fault["replace"]:
+                breaches.append(f"{place}: {fault['id']} replaces a text by itself")
+            if not file.is_file():
+                breaches.append(f"{place}: {fault['file']} does not exist")
+            elif (count := file.read_text().count(fault["find"])) != 1:
+                breaches.append(f"{place}: the text of {fault['id']} occurs {count} times in {fault['file']}")
+        for row, programs in self.table["tests_of"].items():
+            breaches += [f"project.json: {row} is tested by {p}, which is no program" for p in programs
+                         if p not in self.table["programs"]]
+        return breaches
+
+    def matching(self, pattern):
+        try:
+            wanted = re.compile(pattern)
+        except re.error as error:
+            raise SystemExit(f"mutate: '{pattern}' is no regular expression: {error}")
+        return [f for f in self.faults if wanted.search(f["id"]) or wanted.search(f["file"])]
+
+
+def git(folder, *arguments):
+    done = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Wrong(f"git {arguments[0]}: {done.stderr.strip()}")
+    return done.stdout.strip()
+
+
+class Copy:
+    """A git worktree of HEAD in build/mutation, in which faults are applied and taken back."""
+
+    def __init__(self, project, jobs):
+        self.table = project.table
+        self.folder = project.root / "build" / "mutation"
+        self.tree = self.folder / "tree"
+        self.build_folder = self.tree / self.table["build_folder"]
+        self.jobs = jobs
+        self.commit = git(project.root, "rev-parse", "HEAD")
+        self.tests = git(project.root, "rev-parse", "HEAD:tests")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        if git(project.root, "status", "--porcelain", "--untracked-files=no"):
+            print("mutate: what is not committed is not in the copy", file=sys.stderr)
+        git(project.root, "worktree", "prune")
+        if not (self.tree / ".git").exists():
+            shutil.rmtree(self.tree, ignore_errors=True)
+            git(project.root, "worktree", "add", "--quiet", "--detach", str(self.tree), self.commit)
+        # Also what a run that was killed left behind.
+        git(self.tree, "checkout", "--quiet", "--force", "--detach", self.commit)
+        if not self.build_folder.exists():
+            self.configure()
+        self.times_file = self.folder / "times.json"
+        known = json.loads(self.times_file.read_text()) if self.times_file.exists() else {}
+        self.times = known.get("seconds", {}) if known.get("commit") == self.commit else {}
+
+    def filled(self, words, work=None, targets=()):
+        values = {"tree": self.tree, "build": self.build_folder, "work": work, "jobs": self.jobs}
+        result = []
+        for word in words:
+            result += list(targets) if word == "{targets}" else [word.format(**values)]
+        return result
+
+    def environment(self):
+        return {**os.environ, **{k: self.filled([v])[0] for k, v in self.table.get("environment", {}).items()}}
+
+    def run(self, command, folder, limit=None):
+        """The exit code, None when it took longer than `limit`, and what was printed."""
+        log = self.folder / "output.txt"
+        with open(log, "w+", errors="replace") as output:
+            child = subprocess.Popen(command, cwd=folder, env=self.environment(), stdin=subprocess.DEVNULL, stdout=output,
+                                     stderr=subprocess.STDOUT, start_new_session=True)
+            try:
+                code = child.wait(limit)
+            except subprocess.TimeoutExpired:
+                code = None
+            finally:
+                if child.poll() is None:
+                    os.killpg(child.pid, signal.SIGKILL)
+                    child.wait()
+        return code, log.read_text(errors="replace")
+
+    def configure(self):
+        if not self.table["configure"]:
+            return
+        code, output = self.run(self.filled(self.table["configure"]), self.tree)
+        if code != 0:
+            shutil.rmtree(self.build_folder, ignore_errors=True)
+            raise Wrong(f"the copy can't be configured:\n{output[-4000:]}")
+
+    def build(self, programs):
+        """What the build printed when it failed, else nothing."""
+        targets = sorted({target for name in programs for target in self.table["programs"][name]["targets"]})
+        code, output = self.run(self.filled(self.table["build"], targets=targets), self.tree)
+        return output if code != 0 else None
+
+    def test(self, name, limit):
+        """What kills the program's run, or None when it passes, and its seconds."""
+        program = self.table["programs"][name]
+        work = self.folder / "work" / name
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        if "gtest" in program:
+            command = self.filled([program["gtest"], "--gtest_fail_fast", "--gtest_brief=1"], work)
+        else:
+            command = self.filled(program["run"], work)
+        begin = time.monotonic()
+        code, output = self.run(command, work, limit)
+        seconds = time.monotonic() - begin
+        if code is None:
+            return f"{name} (longer than {limit:.0f} s)", seconds
+        if code == 0:
+            return None, seconds
+        if case := FAILED_CASE.search(output):
+            return f"{name}.{case[1]}", seconds
+        lines = output.strip().splitlines()
+        return f"{name} (exit code {code}{': ' + lines[-1][:160] if lines else ''})", seconds
+
+    def measure(self, programs):
+        """Builds and runs the programs without a fault; their times are kept."""
+        unknown = [name for name in programs if name not in self.times]
+        if (output := self.build(programs)) is not None:
+            raise Wrong(f"without a fault the build fails:\n{output[-4000:]}")
+        for name in unknown:
+            print(f"  without a fault: {name}", flush=True)
+            killer, seconds = self.test(name, None)
+            if killer:
+                raise Wrong(f"without a fault fails {killer}")
+            self.times[name] = seconds
+            self.times_file.write_text(json.dumps({"commit": self.commit, "seconds": self.times}))
+
+    def try_fault(self, fault, programs):
+        """One of killed, survived and does not compile, and by what."""
+        file = self.tree / fault["file"]
+        source = file.read_bytes()
+        try:
+            file.write_text(source.decode().replace(fault["find"], fault["replace"]))
+            if (output := self.build(programs)) is not None:
+                if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
+                    return "does not compile", said[0].strip()
+                return "killed", "a program that does not start"  # Its cases are listed when it is linked.
+            for name in programs:
+                killer, _ = self.test(name, max(LEAST_SECONDS, TIMES_UNMUTATED * self.times[name]))
+                if killer:
+                    return "killed", killer
+            return "survived", ""
+        finally:
+            file.write_bytes(source)
+
+
+class Results:
+    """results.jsonl: the last line of an id counts."""
+
+    def __init__(self, copy):
+        self.copy = copy
+        self.file = copy.folder / "results.jsonl"
+        self.known = {}
+        for line in self.file.read_text().splitlines() if self.file.exists() else []:
+            try:
+                self.known[json.loads(line)["id"]] = json.loads(line)
+            except (json.JSONDecodeError, KeyError, TypeError):
+                continue  # Of a run that was killed while it wrote.
+
+    def key(self, fault):
+        return digest((fault["line"] + digest((self.copy.tree / fault["file"]).read_bytes())).encode())
+
+    def of(self, fault):
+        """What is known of a fault; that it survived, only as long as the tests are the same."""
+        found = self.known.get(fault["id"])
+        if not found or found["key"] != self.key(fault) or found["result"] == "does not compile":
+            return None
+        return None if found["result"] == "survived" and found["tests"] != self.copy.tests else found
+
+    def add(self, fault, result, by, seconds):
+        self.known[fault["id"]] = {"id": fault["id"], "result": result, "by": by, "seconds": round(seconds, 1),
+                                   "key": self.key(fault), "tests": self.copy.tests}
+        with open(self.file, "a") as out:
+            out.write(json.dumps(self.known[fault["id"]], ensure_ascii=False) + "\n")
+
+
+def summary(faults, results):
+    """Rows of folder, killed, survived, and the faults with their results."""
+    rows, told = {}, []
+    for fault in faults:
+        found = results.of(fault)
+        result = found["result"] if found else "not tried"
+        row = rows.setdefault(fault["folder"], {"faults": 0, "killed": 0, "survived": 0})
+        row["faults"] += 1
+        if result in row:
+            row[result] += 1
+        told.append({"id": fault["id"], "file": fault["file"], "why": fault["why"], "result": result,
+                     "by": found["by"] if found else ""})
+    return rows, told
+
+
+def share(row):
+    tried = row["killed"] + row["survived"]
+    return f"{100 * row['killed'] / tried:.1f} %" if tried else "-"
+
+
+def print_summary(rows, told):
+    print(f"\n{'folder':<12} {'faults':>6} {'killed':>6} {'survived':>8} {'score':>8}")
+    total = {key: sum(row[key] for row in rows.values()) for key in ("faults", "killed", "survived")}
+    for name, row in [*sorted(rows.items()), ("all", total)]:
+        print(f"{name:<12} {row['faults']:>6} {row['killed']:>6} {row['survived']:>8} {share(row):>8}")
+    survivors = [t for t in told if t["result"] == "survived"]
+    if survivors:
+        print("\nsurvivors:")
+    for t in survivors:
+        print(f"  {t['id']} ({t['file']}): {t['why']}")
+
+
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
+def mutate(project, faults, arguments):
+    copy = Copy(project, arguments.jobs)
+    if breaches := project.check(copy.tree):
+        raise Wrong("\n".join(breaches))
+    results = Results(copy)
+    left = [fault for fault in faults if not results.of(fault)]
+    print(f"mutate: {len(faults)} faults, {len(faults) - len(left)} of them known", flush=True)
+    uncompiled, interrupted = [], False
+    try:
+        if left:
+            copy.measure(sorted({name for fault in left for name in project.programs_of(fault["file"])}))
+        for number, fault in enumerate(left, 1):
+            begin = time.monotonic()
+            result, by = copy.try_fault(fault, project.programs_of(fault["file"]))
+            results.add(fault, result, by, time.monotonic() - begin)
+            print(f"[{number}/{len(left)}] {fault['id']}: {result}{' by ' + by if result == 'killed' else ''}", flush=True)
+            if result == "does not compile":
+                uncompiled.append(f"{fault['place']}: {fault['id']} does not compile: {by}")
+    except KeyboardInterrupt:
+        interrupted = True
+    rows, told = summary(faults, results)
+    print_summary(rows, told)
+    if arguments.json:
+        for row in rows.values():
+            row["score"] = row["killed"] / max(1, row["killed"] + row["survived"])
+        Path(arguments.json).write_text(
+            json.dumps({"commit": copy.commit, "folders": rows, "faults": told}, indent=2, ensure_ascii=False) + "\n")
+    if uncompiled:
+        raise Wrong("\n".join(uncompiled))
+    return 130 if interrupted else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="mutate", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", type=Path)
+    parser.add_argument("pattern", nargs="?", default="", help="regular expression, searched in ids and files")
+    parser.add_argument("--list", action="store_true", help="check the list against the sources, and end")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="compilers at a time")
+    parser.add_argument("--json", metavar="FILE", help="write the results there, too")
+    arguments = parser.parse_args()
+    project = Project(arguments.root.resolve())
+    signal.signal(signal.SIGINT, interrupt)
+    signal.signal(signal.SIGTERM, interrupt)
+    try:
+        if arguments.list:
+            if breaches := project.check(project.root):
+                raise Wrong("\n".join(breaches))
+            return 0
+        faults = project.matching(arguments.pattern)
+        if not faults:
+            print(f"mutate: no fault matches '{arguments.pattern}'", file=sys.stderr)
+            return 2
+        return mutate(project, faults, arguments)
+    except KeyboardInterrupt:
+        return 130
+    except (Wrong, OSError, json.JSONDecodeError) as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: MIT
+"""mutate.py on a project of a few lines: mutate_test.py COMPILER. Exit code 77: git or the compiler is missing."""
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+MUTATE = Path(__file__).resolve().parent / "mutate.py"
+COMPILER = "c++"
+
+SIZE = """int area(int width, int height) { return width * height; }
+int perimeter(int width, int height) { return 2 * (width + height); }
+"""
+# A square would not notice that the perimeter takes its width twice.
+TEST = """int area(int, int);
+int perimeter(int, int);
+int main() { return area(2, 3) == 6 && perimeter(2, 2) == 8 ? 0 : 1; }
+"""
+KILLED = {"id": "area", "file": "src/size.cpp", "find": "width * height", "replace": "width * width", "why": "oblong"}
+SURVIVES = {"id": "perimeter", "file": "src/size.cpp", "find": "width + height", "replace": "width + width", "why": "oblong"}
+UNCOMPILED = {"id": "syntax", "file": "src/size.cpp", "find": "width * height", "replace": "width *", "why": "none"}
+ENDLESS = {"id": "endless", "file": "src/size.cpp", "find": "return width * height;",
+           "replace": "for (volatile int i = 0; i == 0;) {} return width * height;", "why": "none"}
+
+
+class MutateTest(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(tempfile.mkdtemp(prefix="papilla-mutate-"))
+        self.addCleanup(shutil.rmtree, self.root, ignore_errors=True)
+        (self.root / "src").mkdir()
+        (self.root / "tests" / "mutation" / "faults").mkdir(parents=True)
+        (self.root / "src" / "size.cpp").write_text(SIZE)
+        (self.root / "tests" / "size_test.cpp").write_text(TEST)
+        (self.root / ".gitignore").write_text("build/\n")
+        table = {"build_folder": "build/toy", "configure": ["mkdir", "-p", "{build}"],
+                 "build": [COMPILER, "src/size.cpp", "tests/size_test.cpp", "-o", "{build}/size"], "environment": {},
+                 "programs": {"size": {"targets": ["size"], "run": ["{build}/size"]}}, "tests_of": {"src": ["size"]}}
+        self.write("tests/mutation/project.json", json.dumps(table))
+        self.git("init", "--quiet")
+
+    def git(self, *arguments):
+        subprocess.run(["git", "-c", "user.name=test", "-c", "user.email=test@example.org", *arguments], cwd=self.root,
+                       check=True, capture_output=True)
+
+    def write(self, file, text):
+        (self.root / file).write_text(text)
+
+    def commit(self, *faults):
+        self.write("tests/mutation/faults/toy.jsonl", "".join(json.dumps(fault) + "\n" for fault in faults))
+        self.git("add", "--all")
+        self.git("commit", "--quiet", "--allow-empty", "-m", "toy")
+
+    def mutate(self, *arguments):
+        done = subprocess.run([sys.executable, MUTATE, self.root, *arguments], capture_output=True, text=True)
+        return done.returncode, done.stdout, done.stderr
+
+    def source_of_copy(self):
+        return (self.root / "build" / "mutation" / "tree" / "src" / "size.cpp").read_text()
+
+    def test_kills_one_and_lets_one_survive(self):
+        self.commit(KILLED, SURVIVES)
+        code, out, _ = self.mutate("--json", str(self.root / "result.json"))
+        self.assertEqual(code, 0)
+        self.assertIn("area: killed by size", out)
+        self.assertIn("perimeter: survived", out)
+        self.assertRegex(out, r"toy +2 +1 +1 +50\.0 %")
+        result = json.loads((self.root / "result.json").read_text())
+        self.assertEqual([f["result"] for f in result["faults"]], ["killed", "survived"])
+        self.assertEqual(result["folders"]["toy"]["score"], 0.5)
+        self.assertEqual(self.source_of_copy(), SIZE)
+        self.assertEqual((self.root / "src" / "size.cpp").read_text(), SIZE)
+
+    def test_resumes(self):
+        self.commit(KILLED, SURVIVES)
+        self.mutate()
+        code, out, _ = self.mutate()
+        self.assertEqual(code, 0)
+        self.assertIn("2 faults, 2 of them known", out)
+        self.assertRegex(out, r"toy +2 +1 +1 +50\.0 %")
+        # A better test is asked about what survived, not about what was killed.
+        self.write("tests/size_test.cpp", TEST.replace("perimeter(2, 2) == 8", "perimeter(2, 3) == 10"))
+        self.commit(KILLED, SURVIVES)
+        _, out, _ = self.mutate()
+        self.assertIn("2 faults, 1 of them known", out)
+        self.assertIn("perimeter: killed by size", out)
+        # Another source makes all of its faults new.
+        self.write("src/size.cpp", "// Of a rectangle.\n" + SIZE)
+        self.commit(KILLED, SURVIVES)
+        _, out, _ = self.mutate()
+        self.assertIn("2 faults, 0 of them known", out)
+
+    def test_what_does_not_compile_is_an_error_of_the_list(self):
+        self.commit(UNCOMPILED, KILLED)
+        code, out, err = self.mutate()
+        self.assertEqual(code, 1)
+        self.assertIn("toy.jsonl:1: syntax does not compile", err)
+        self.assertIn("area: killed", out)
+        self.assertEqual(self.source_of_copy(), SIZE)
+
+    def test_pattern_chooses_by_id_and_file(self):
+        self.commit(KILLED, SURVIVES)
+        self.assertIn("1 faults", self.mutate("^area")[1])
+        self.assertIn("2 faults", self.mutate("size.cpp")[1])
+        self.assertEqual(self.mutate("nothing")[0], 2)
+
+    def test_tests_that_fail_without_a_fault_are_an_error(self):
+        self.write("tests/size_test.cpp", TEST.replace("== 6", "== 7"))
+        self.commit(KILLED)
+        code, _, err = self.mutate()
+        self.assertEqual(code, 1)
+        self.assertIn("without a fault fails size", err)
+
+    def test_an_interrupted_run_leaves_no_fault(self):
+        self.commit(KILLED, ENDLESS)
+        run = subprocess.Popen([sys.executable, MUTATE, self.root], stdout=subprocess.PIPE, text=True)
+        end = time.monotonic() + 60
+        while time.monotonic() < end:  # Until the second fault is in the copy: the first one was told.
+            if "area: killed" in run.stdout.readline():
+                break
+        while time.monotonic() < end and "volatile" not in self.source_of_copy():
+            time.sleep(0.01)
+        run.send_signal(signal.SIGINT)
+        out = run.communicate(timeout=60)[0]
+        self.assertEqual(run.returncode, 130)
+        self.assertRegex(out, r"toy +2 +1 +0 +100\.0 %")
+        self.assertEqual(self.source_of_copy(), SIZE)
+        results = (self.root / "build" / "mutation" / "results.jsonl").read_text().splitlines()
+        self.assertEqual([json.loads(line)["id"] for line in results], ["area"])
+
+    def test_what_never_ends_is_killed(self):
+        self.commit(ENDLESS)
+        self.assertIn("endless: killed by size (longer than 10 s)", self.mutate()[1])
+
+    def test_list_finds_breaches(self):
+        self.commit(KILLED)
+        self.assertEqual(self.mutate("--list"), (0, "", ""))
+        breaches = {
+            "twice": {**KILLED, "find": "width"},
+            "none": {**KILLED, "find": "depth"},
+            "itself": {**KILLED, "replace": KILLED["find"]},
+            "elsewhere": {**KILLED, "file": "src/none.cpp"},
+            "untested": {**KILLED, "file": "tests/size_test.cpp", "find": "== 6"},
+            "incomplete": {"id": "x", "file": "src/size.cpp"},
+        }
+        said = {"twice": "occurs 4 times", "none": "occurs 0 times", "itself": "by itself", "elsewhere": "does not exist",
+                "untested": "no row of tests_of", "incomplete": "expected an object"}
+        for name, fault in breaches.items():
+            self.commit(fault)
+            code, _, err = self.mutate("--list")
+            self.assertEqual(code, 1, name)
+            self.assertIn(said[name], err)
+        self.commit(KILLED, KILLED)
+        self.assertIn("is the id of", self.mutate("--list")[2])
+        self.assertFalse((self.root / "build").exists())
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        COMPILER = sys.argv.pop(1)
+    if shutil.which("git") is None or shutil.which(COMPILER) is None:
+        sys.exit(77)
+    unittest.main(verbosity=2)
