@@ -52,8 +52,7 @@ TEST(StudioDocument, AVariationIsOfTheSurfacesAloneAndIsVariedItselfNextTime) {
   EXPECT_EQ(once["materials"]["grain"]["size_mm"], Json::parse("[10,10]"));
   EXPECT_EQ(once["materials"]["grain on a"]["size_mm"], Json::parse("[5,5]"));
   EXPECT_EQ(once["assign"][0], Json::parse(R"({"part": "a", "material": "grain on a"})"));
-  const Json twice =
-      edited(once.dump(), StudioEdit::Kind::vary, {"a"}, "grain on a", {{"/unwrap/grain", "[1,0,0]"}});
+  const Json twice = edited(once.dump(), StudioEdit::Kind::vary, {"a"}, "grain on a", {{"/unwrap/grain", "[1,0,0]"}});
   EXPECT_EQ(twice["materials"].size(), 3U);
   EXPECT_EQ(twice["materials"]["grain on a"]["unwrap"]["grain"], Json::parse("[1,0,0]"));
 }
@@ -62,7 +61,8 @@ TEST(StudioDocument, ValuesGoToTheirPlaceAndNullTakesThemAway) {
   Json json = edited(k_document, StudioEdit::Kind::set, {}, "grain", {{"/unwrap", "\"lscm\""}});
   json = edited(json.dump(), StudioEdit::Kind::set, {}, "grain", {{"/unwrap/grain", "[1,0,0]"}});
   EXPECT_EQ(json["materials"]["grain"]["unwrap"], Json::parse(R"({"method": "lscm", "grain": [1, 0, 0]})"));
-  json = edited(json.dump(), StudioEdit::Kind::set, {}, "grain", {{"/unwrap/grain", "null"}, {"/unwrap/method", "null"}});
+  json =
+      edited(json.dump(), StudioEdit::Kind::set, {}, "grain", {{"/unwrap/grain", "null"}, {"/unwrap/method", "null"}});
   EXPECT_FALSE(json["materials"]["grain"].contains("unwrap"));
 }
 
@@ -149,7 +149,8 @@ TEST(ShownMesh, SharesWhatAgreesAndFindsSeams) {
   EXPECT_EQ(whole.positions.size(), 12U);
   EXPECT_EQ(whole.seams.size(), 4U * 6U);
   for (std::size_t c = 0; c < 6; ++c)  // Every corner is where it was.
-    EXPECT_EQ(static_cast<double>(whole.positions[3 * whole.indices[c]]), square.corner(c / 3, static_cast<int>(c % 3)).x);
+    EXPECT_EQ(static_cast<double>(whole.positions[3 * whole.indices[c]]),
+              square.corner(c / 3, static_cast<int>(c % 3)).x);
   square.uv.indices[1] = {4, 2, 3};
   const ShownMesh cut = shown_mesh(square);
   EXPECT_EQ(cut.positions.size(), 15U);
@@ -187,8 +188,9 @@ TEST(StudioScene, SelectorsMeanOneSurface) {
     StudioEdit edit;
     edit.surfaces = studio.selectors(wanted, 0);
     edit.material = "grain";
-    const std::string document = edited_document(
-        R"({"materials": {"grain": {"texture": "grain:spheres6", "size_mm": [10, 10]}}, "assign": []})", edit, "m.json");
+    const std::string document =
+        edited_document(R"({"materials": {"grain": {"texture": "grain:spheres6", "size_mm": [10, 10]}}, "assign": []})",
+                        edit, "m.json");
     const StudioPlan plan = studio.plan(document, "m.json", {});
     ASSERT_EQ(plan.wishes.size(), 3U);
     for (const StudioWish& wish : plan.wishes) EXPECT_EQ(wish.material, wish.part == wanted ? "grain" : "");
@@ -217,8 +219,8 @@ TEST(StudioScene, ASurfaceIsWhatABakeMakesOfIt) {
 
 TEST(StudioScene, GivesUpWhenItIsToldTo) {
   StudioScene studio(plates(), {}, false);
-  const StudioPlan plan =
-      studio.plan(R"({"materials": {"h": {"stiffness": 1}}, "assign": [{"part": "*", "material": "h"}]})", "m.json", {});
+  const StudioPlan plan = studio.plan(
+      R"({"materials": {"h": {"stiffness": 1}}, "assign": [{"part": "*", "material": "h"}]})", "m.json", {});
   EXPECT_THROW(studio.bake(plan, plan.wishes.front(), [](const Progress&) { return false; }), Cancelled);
 }
 

@@ -48,7 +48,8 @@ bool Admission::admits(const RequestHead& request) const {
   if (host == hosts_.end()) return false;
   const std::string page = "http://" + page_hosts_[static_cast<std::size_t>(host - hosts_.begin())];
   return known &&
-         std::all_of(request.origins.begin(), request.origins.end(), [&](const auto& value) { return value == page; }) &&
+         std::all_of(request.origins.begin(), request.origins.end(),
+                     [&](const auto& value) { return value == page; }) &&
          std::all_of(request.referers.begin(), request.referers.end(),
                      [&](const std::string& value) { return value.starts_with(page + "/"); });
 }

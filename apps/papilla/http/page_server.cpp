@@ -80,8 +80,8 @@ class PageServer::Loop {
   PageRoutes routes_;
   PageLimits limits_;
   std::optional<Admission> admission_;  ///< Once the port is known.
-  std::list<Connection*> strangers_;  ///< The oldest first.
-  std::set<Connection*> clients_;     ///< That showed the token.
+  std::list<Connection*> strangers_;    ///< The oldest first.
+  std::set<Connection*> clients_;       ///< That showed the token.
   std::array<char, k_piece_bytes> discarded_{};
   asio::io_context context_{1};  ///< Owns the connections through their handlers, so it ends before what they refer to.
   tcp::acceptor acceptor_{context_};

@@ -49,8 +49,7 @@ std::string without_progress(std::string_view messages) {
 }  // namespace
 
 std::string shell_line(const std::vector<std::string>& words) {
-  constexpr std::string_view k_plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=@%+,-";
+  constexpr std::string_view k_plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=@%+,-";
   std::string line;
   for (const std::string& word : words) {
     if (!line.empty()) line += ' ';
@@ -84,9 +83,7 @@ void StudioBake::follow() {
   }
   const ChildEnd end = child_.wait();
   News news;
-  news.state = end.exit_code == 0   ? News::State::done
-               : was_told_to_end ? News::State::cancelled
-                                    : News::State::failed;
+  news.state = end.exit_code == 0 ? News::State::done : was_told_to_end ? News::State::cancelled : News::State::failed;
   news.messages = without_progress(end.messages);
   is_running_ = false;
   tell_(news);

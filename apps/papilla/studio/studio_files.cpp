@@ -42,8 +42,9 @@ std::string lower(std::string text) {
 /// A bare name that every file system has a place for.
 void check_name(const std::string& name, const std::set<std::string>& extensions) {
   constexpr std::size_t k_longest = 200;
-  const bool is_bare = !name.empty() && name.size() <= k_longest && name.front() != '.' && name.front() != '-' &&
-                       std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '/' || c == '\\'; });
+  const bool is_bare =
+      !name.empty() && name.size() <= k_longest && name.front() != '.' && name.front() != '-' &&
+      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '/' || c == '\\'; });
   if (!is_bare) throw InvalidInput("'" + name + "' is no name of a file");
   if (extensions.contains(lower(fs::path(name).extension().string()))) return;
   std::string known;

@@ -138,11 +138,11 @@ class StudioSession::Studio {
         }});
     open_document();
     socket_->start({[this](const std::string& target, const std::string& host, const std::string& origin) {
-                     // A page always says where it comes from.
-                     return !origin.empty() && socket_admission_.admits({target, {host}, {origin}, {}});
-                   },
-                   [](const std::string&) {},  // Pages only listen.
-                   [this](std::size_t clients) { note_clients(clients); }});
+                      // A page always says where it comes from.
+                      return !origin.empty() && socket_admission_.admits({target, {host}, {origin}, {}});
+                    },
+                    [](const std::string&) {},  // Pages only listen.
+                    [this](std::size_t clients) { note_clients(clients); }});
     // Pages are served under each name of this machine, and ask under the same.
     std::string sockets;
     for (const char* host : {"127.0.0.1", "localhost"})
@@ -186,9 +186,7 @@ class StudioSession::Studio {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void tell(const Json& event) {
-    socket_->send(event.dump(-1, ' ', false, Json::error_handler_t::replace));
-  }
+  void tell(const Json& event) { socket_->send(event.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
   void note_clients(std::size_t clients) {
     const std::scoped_lock lock(clients_mutex_);
@@ -199,8 +197,7 @@ class StudioSession::Studio {
 
   bool is_left() {
     const std::scoped_lock lock(clients_mutex_);
-    return had_client_ && clients_ == 0 &&
-           Clock::now() - left_at_ > std::chrono::duration<double>(options_.close_s);
+    return had_client_ && clients_ == 0 && Clock::now() - left_at_ > std::chrono::duration<double>(options_.close_s);
   }
 
   // ---- The document.
@@ -273,7 +270,8 @@ class StudioSession::Studio {
     const Json json = parsed(body);
     const std::scoped_lock lock(mutex_);
     const Json edits = json.contains("edits") ? json.at("edits") : Json::array({json});
-    if (!edits.is_array() || edits.empty() || edits.size() > k_most_edits) throw InvalidInput("there is nothing to change");
+    if (!edits.is_array() || edits.empty() || edits.size() > k_most_edits)
+      throw InvalidInput("there is nothing to change");
     std::string document = history_.document();
     for (const Json& one : edits) document = edited_document(document, edit_of(one, scene_.get()), files_.materials());
     take(document, json.value("title", std::string("change")));
@@ -310,7 +308,8 @@ class StudioSession::Studio {
     is_loading_ = true;
     loader_ = std::thread([this, file] {
       const auto report = [&](const Progress& done) {
-        tell_progress({{"event", "loading"}, {"file", file}, {"stage", std::string(done.stage)}, {"fraction", done.fraction}});
+        tell_progress(
+            {{"event", "loading"}, {"file", file}, {"stage", std::string(done.stage)}, {"fraction", done.fraction}});
         return !cancel_loading_;
       };
       std::string problem;
@@ -354,16 +353,14 @@ class StudioSession::Studio {
   }
 
   void told_ready(const StudioSurface& surface, const std::string& name) {
-    tell({{"event", "ready"},
-          {"surface", name},
-          {"label", surface.label},
-          {"seconds", surface.seconds}});
+    tell({{"event", "ready"}, {"surface", name}, {"label", surface.label}, {"seconds", surface.seconds}});
   }
 
   Json upload(const Query& query, const BodySource& body, bool is_scene) {
     cancel_upload_ = false;
-    const std::string file = files_.receive(required(query, "name"), is_scene ? scene_extensions() : picture_extensions(),
-                                            body, [this] { return !cancel_upload_; });
+    const std::string file =
+        files_.receive(required(query, "name"), is_scene ? scene_extensions() : picture_extensions(), body,
+                       [this] { return !cancel_upload_; });
     if (is_scene) {
       const std::scoped_lock lock(load_mutex_);
       load(file);
@@ -503,8 +500,9 @@ class StudioSession::Studio {
       return text_of(encode_png(material_picture(rule_of(material, id), options)));
     };
     const std::string text = read_file(material.file);
-    return bytes_answer("image/png", std::make_shared<const std::string>(
-                                         remembered(context_.cache, "studio-picture", CacheUse::read_write, make, text).value));
+    return bytes_answer("image/png",
+                        std::make_shared<const std::string>(
+                            remembered(context_.cache, "studio-picture", CacheUse::read_write, make, text).value));
   }
 
   Json bake(const std::string& body) {
@@ -523,9 +521,10 @@ class StudioSession::Studio {
     report_ = report;
     bake_ = std::make_unique<StudioBake>(words, [this, output, report](const StudioBake::News& news) {
       static constexpr const char* names[] = {"running", "done", "failed", "cancelled"};
-      Json event = {{"event", "bake"},         {"state", names[static_cast<std::size_t>(news.state)]},
-                    {"stage", news.stage},     {"fraction", news.fraction},
-                    {"messages", news.messages}, {"output", output}, {"report", report}};
+      Json event = {{"event", "bake"},           {"state", names[static_cast<std::size_t>(news.state)]},
+                    {"stage", news.stage},       {"fraction", news.fraction},
+                    {"messages", news.messages}, {"output", output},
+                    {"report", report}};
       std::error_code error;
       if (const auto bytes = fs::file_size(output, error); !error && news.state == StudioBake::News::State::done)
         event["bytes"] = bytes;

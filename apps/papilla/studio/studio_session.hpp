@@ -14,11 +14,11 @@
 namespace papilla::app {
 
 struct StudioOptions {
-  BakeArguments arguments;             ///< What a bake of the studio gets.
-  std::vector<std::string> more;       ///< Their words on a command line, without scene and materials.
+  BakeArguments arguments;        ///< What a bake of the studio gets.
+  std::vector<std::string> more;  ///< Their words on a command line, without scene and materials.
   int port = 0;
-  std::string token;                   ///< Empty: a random one.
-  double close_s = 4;                  ///< After the last window was closed; the program ends then.
+  std::string token;   ///< Empty: a random one.
+  double close_s = 4;  ///< After the last window was closed; the program ends then.
 };
 
 /// The studio: a document of materials for a scene, edited in a browser, with all that serves it.

@@ -76,8 +76,8 @@ class StudioSocket::Server {
         connection->terminate(websocketpp::lib::error_code());
         continue;
       }
-      endpoint_.send(handle, payload,
-                     is_newest ? websocketpp::frame::opcode::binary : websocketpp::frame::opcode::text, error);
+      endpoint_.send(handle, payload, is_newest ? websocketpp::frame::opcode::binary : websocketpp::frame::opcode::text,
+                     error);
     }
   }
 
@@ -89,8 +89,9 @@ class StudioSocket::Server {
  private:
   bool validate(const Handle& handle) {
     const Endpoint::connection_ptr connection = endpoint_.get_con_from_hdl(handle);
-    if (clients() < k_most_clients && handlers_.admits(connection->get_resource(), connection->get_request_header("Host"),
-                                                       connection->get_request_header("Origin")))
+    if (clients() < k_most_clients &&
+        handlers_.admits(connection->get_resource(), connection->get_request_header("Host"),
+                         connection->get_request_header("Origin")))
       return true;
     connection->set_status(websocketpp::http::status_code::forbidden);
     return false;

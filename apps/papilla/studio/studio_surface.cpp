@@ -29,12 +29,9 @@ Json map_json(const Scene& look, const std::optional<TextureReference>& referenc
   const EncodedImage& image = look.images.at(*texture.image);
   if (image.bytes.empty()) return nullptr;
   const UvTransform transform = reference->transform.value_or(UvTransform{});
-  return {{"image", *texture.image},
-          {"name", short_name(image.bytes.data(), image.bytes.size())},
-          {"factor", reference->factor},
-          {"wrap", {texture.wrap_s, texture.wrap_t}},
-          {"offset", pair(transform.offset)},
-          {"rotation", transform.rotation},
+  return {{"image", *texture.image},          {"name", short_name(image.bytes.data(), image.bytes.size())},
+          {"factor", reference->factor},      {"wrap", {texture.wrap_s, texture.wrap_t}},
+          {"offset", pair(transform.offset)}, {"rotation", transform.rotation},
           {"scale", pair(transform.scale)}};
 }
 
@@ -84,17 +81,18 @@ SharedText surface_bytes(const StudioSurface& surface) {
   arrays.add("measured", mesh.measured);
   arrays.add("seams", mesh.seams);
   arrays.add("indices", mesh.indices);
-  Json json = {{"part", surface.part},       {"slot", surface.slot},
-               {"label", surface.label},     {"look", look_json(*surface.look)},
-               {"warnings", surface.warnings}, {"seconds", surface.seconds},
-               {"mm_per_uv", pair(surface.mm_per_uv)}, {"report", nullptr}};
+  Json json = {{"part", surface.part},
+               {"slot", surface.slot},
+               {"label", surface.label},
+               {"look", look_json(*surface.look)},
+               {"warnings", surface.warnings},
+               {"seconds", surface.seconds},
+               {"mm_per_uv", pair(surface.mm_per_uv)},
+               {"report", nullptr}};
   if (!surface.report.method.empty())
-    json["report"] = {{"method", surface.report.method},
-                      {"reason", surface.report.reason},
-                      {"charts", surface.report.charts},
-                      {"seam_mm", surface.report.seam_mm},
-                      {"notes", surface.report.notes},
-                      {"distortion", distortion_json(surface.report.distortion)}};
+    json["report"] = {{"method", surface.report.method}, {"reason", surface.report.reason},
+                      {"charts", surface.report.charts}, {"seam_mm", surface.report.seam_mm},
+                      {"notes", surface.report.notes},   {"distortion", distortion_json(surface.report.distortion)}};
   json["arrays"] = std::move(arrays.json);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.append((4 - text.size() % 4) % 4, ' ');

@@ -35,7 +35,8 @@ std::vector<std::string> bake_words(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_name();
     if (option->empty() || name == "SCENE" || name == "--materials" || name == "--help") continue;
-    if (app.get_option_no_throw(name) == nullptr && name != "--cache" && name != "--threads" && name != "--seed") continue;
+    if (app.get_option_no_throw(name) == nullptr && name != "--cache" && name != "--threads" && name != "--seed")
+      continue;
     words.push_back(name);
     if (option->get_expected_max() == 0) continue;
     for (const std::string& value : option->results()) words.push_back(value);
@@ -46,7 +47,8 @@ std::vector<std::string> bake_words(const CLI::App& verb) {
 bool is_token(const std::string& token) {
   constexpr std::size_t k_least = 16, k_most = 128;
   return token.size() >= k_least && token.size() <= k_most &&
-         token.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_") == std::string::npos;
+         token.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_") ==
+             std::string::npos;
 }
 
 Json run(const Options& options, VerbContext& context) {
@@ -70,12 +72,12 @@ Json run(const Options& options, VerbContext& context) {
 
 void add_studio(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(
-      program,
-      {"studio", "Choose materials for a scene in the browser, and see, feel and bake the result.",
-       "papilla studio data/cockpit.step -m examples/materials.json", VerbInfo::AtDeadline::ends,
-       VerbInfo::Remembers::yes},
-      [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb =
+      add_verb(program,
+               {"studio", "Choose materials for a scene in the browser, and see, feel and bake the result.",
+                "papilla studio data/cockpit.step -m examples/materials.json", VerbInfo::AtDeadline::ends,
+                VerbInfo::Remembers::yes},
+               [options](VerbContext& context) { return run(*options, context); });
   options->verb = verb;
   options->studio.arguments.add_to(*verb);
   verb->get_option("SCENE")->description("CAD, mesh or glTF file; without it one is opened in the page");

@@ -126,6 +126,7 @@ class Studio {
     this.view.setScene(this.scene);
     $('scene-file').textContent = this.scene.file;
     await this.showSurfaces();
+    this.view.frame();
   }
 
   keyOf(surface) { return `${surface.part}/${surface.slot}/${surface.uses[0]}`; }

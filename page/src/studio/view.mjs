@@ -42,7 +42,6 @@ export class View {
     this.scene = scene;
     this.root.rotation.x = scene?.z_up ? -Math.PI / 2 : 0;
     this.root.updateMatrixWorld(true);
-    this.framed = false;
   }
 
   drop(shown) {
@@ -86,7 +85,6 @@ export class View {
     if (before) this.drop(before);
     this.surfaces.set(key, shown);
     this.dress(shown);
-    if (!this.framed) this.frameSoon();
     this.draw();
   }
 
@@ -140,7 +138,7 @@ export class View {
     const textured = this.overlay === 'textured';
     if (!textured) applyOverlay(shown.shader, this.overlay, this.range ?? [0, 1], this.map);
     const glows = this.selected.has(shown.key);
-    shown.material.emissive.setRGB(...(glows ? [0.02, 0.09, 0.2] : shown.data.look.emissive));
+    shown.material.emissive.setRGB(...(glows ? [0.004, 0.02, 0.05] : shown.data.look.emissive));
     for (const mesh of shown.meshes) {
       mesh.material = textured ? shown.material : shown.shader;
       mesh.visible = !this.hidden.has(shown.key);
@@ -183,15 +181,9 @@ export class View {
     return box;
   }
 
-  frameSoon() {
-    clearTimeout(this.framing);
-    this.framing = setTimeout(() => { if (!this.framed) this.frame(); }, 150);
-  }
-
   frame(keys = null) {
     const box = this.box(keys);
     if (box.isEmpty()) return;
-    this.framed = true;
     this.setMode('orbit');
     const centre = box.getCenter(new THREE.Vector3()), radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1);
     const far = radius / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2)) / Math.min(1, Math.max(this.camera.aspect, 0.4));
@@ -212,7 +204,6 @@ export class View {
   seat() {
     const box = this.box();
     if (box.isEmpty()) return;
-    this.framed = true;
     const eye = this.scene.eye ? this.root.localToWorld(new THREE.Vector3(...this.scene.eye)) : box.getCenter(new THREE.Vector3());
     const ahead = new THREE.Box3();
     for (const shown of this.surfaces.values()) if (AHEAD.test(shown.data.label)) for (const mesh of shown.meshes) ahead.expandByObject(mesh);

@@ -51,9 +51,7 @@ AllowedFolders::AllowedFolders(const std::vector<fs::path>& folders) {
 }
 
 fs::path AllowedFolders::file(const fs::path& path, const fs::path& base) const {
-  const auto refuse = [&](const char* reason) -> fs::path {
-    throw InvalidInput("'" + path.string() + "': " + reason);
-  };
+  const auto refuse = [&](const char* reason) -> fs::path { throw InvalidInput("'" + path.string() + "': " + reason); };
   std::error_code error;
   if (path.empty() || path.native().find('\0') != std::string::npos) return refuse("is no path");
   const fs::path real = fs::weakly_canonical(fs::absolute(base / path), error);

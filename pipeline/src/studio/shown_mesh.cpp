@@ -30,8 +30,8 @@ void push(std::vector<float>& list, Vec2 v) {
 void add_seams(const TriangleMesh& mesh, std::vector<float>& seams) {
   if (mesh.uv.empty()) return;
   struct Side {
-    Index low, high;          // Positions.
-    Index uv_low, uv_high;    // Values of uv there.
+    Index low, high;        // Positions.
+    Index uv_low, uv_high;  // Values of uv there.
     bool operator<(const Side& other) const {
       return std::tie(low, high, uv_low, uv_high) < std::tie(other.low, other.high, other.uv_low, other.uv_high);
     }

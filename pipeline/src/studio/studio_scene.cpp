@@ -213,12 +213,13 @@ Scene StudioScene::piece(std::uint32_t number, std::uint32_t slot, const std::st
 }
 
 Grain StudioScene::grain_of(const std::string& key, const MaterialRule& rule) {
-  const auto known = std::find_if(grains_.begin(), grains_.end(), [&](const auto& entry) { return entry.first == key; });
+  const auto known =
+      std::find_if(grains_.begin(), grains_.end(), [&](const auto& entry) { return entry.first == key; });
   if (known != grains_.end()) {
     grains_.splice(grains_.begin(), grains_, known);
   } else {
-    grains_.emplace_front(key, make_grain(rule, options_.library, options_.unwrap.method.deadline,
-                                          options_.unwrap.method.cache));
+    grains_.emplace_front(
+        key, make_grain(rule, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache));
     if (grains_.size() > k_most_grains) grains_.pop_back();
   }
   return grains_.front().second;
@@ -259,8 +260,7 @@ StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, 
   }
   report_progress(progress, wish.label, 0.5);
   const WholeScene whole{context_, in_place_};
-  BakeResult result =
-      bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
+  BakeResult result = bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
   StudioSurface surface;
   surface.part = wish.part, surface.slot = wish.slot;
   surface.label = wish.label;
@@ -272,7 +272,8 @@ StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, 
   surface.mesh = shown_mesh(result.scene.parts[0].mesh, surface.report.distortion);
   surface.report.mesh = {};
   surface.report.distortion.per_triangle.clear();
-  if (!result.scene.parts[0].materials.empty()) surface.mm_per_uv = result.mm_per_uv.at(result.scene.parts[0].materials[0]);
+  if (!result.scene.parts[0].materials.empty())
+    surface.mm_per_uv = result.mm_per_uv.at(result.scene.parts[0].materials[0]);
   surface.warnings = result.scene.warnings;
   surface.look = look_of(std::move(result.scene));
   surface.seconds = clock.seconds();
