@@ -36,6 +36,8 @@ if(PAPILLA_BUILD_TOOLKIT)
   find_package(CGAL REQUIRED)
   find_package(Boost 1.74 REQUIRED)  # Headers only: Beast, Asio and Math.
   find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+  pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
+  find_package(websocketpp REQUIRED)
   find_package(TBB REQUIRED)
   find_package(Ceres REQUIRED)
   find_package(OpenCASCADE REQUIRED)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Bundles src/ and its libraries into one HTML file and writes that as C++: node build.mjs NODE_MODULES OUT.cpp
+// Bundles the pages of src/ with their libraries into one HTML file each and writes these as C++:
+// node build.mjs NODE_MODULES PAGE.cpp STUDIO.cpp
 import { createRequire } from 'node:module';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const [modules, output] = process.argv.slice(2).map((path) => resolve(path));
+const [modules, output, studio] = process.argv.slice(2).map((path) => resolve(path));
 const folder = join(dirname(fileURLToPath(import.meta.url)), 'src');
 const { build } = createRequire(join(modules, 'x'))('esbuild');
 
@@ -32,20 +33,30 @@ function literal(line) {
   return `    "${text}"`;
 }
 
-const script = await bundle('main.mjs', {});
-const style = await bundle('style.css', {});
-const parts = { STYLE: style, SCRIPT: script, LICENCES: licences.join(', ') };
-const html = readFileSync(join(folder, 'index.html'), 'utf8').replace(/@(STYLE|SCRIPT|LICENCES)@/g, (_, name) => parts[name]);
-for (const marker of ['@PAPILLA_CONNECT@', '@PAPILLA_DATA@']) if (html.split(marker).length !== 2) throw new Error(`the bundle must hold ${marker} once`);
-const chunks = html.match(/[^]{1,4000}/gu);
-writeFileSync(output, `// SPDX-License-Identifier: GPL-3.0-or-later
+/** One page: its bundle put into its HTML, and that into a function of C++ of the header. */
+async function write(page, { html: file, script, style, markers, header, name }) {
+  const parts = { STYLE: await bundle(style, {}), SCRIPT: await bundle(script, {}), LICENCES: licences.join(', ') };
+  const html = readFileSync(join(folder, file), 'utf8').replace(/@(STYLE|SCRIPT|LICENCES)@/g, (_, part) => parts[part]);
+  for (const marker of markers) if (html.split(marker).length !== 2) throw new Error(`the bundle must hold ${marker} once`);
+  const chunks = html.match(/[^]{1,4000}/gu);
+  writeFileSync(page, `// SPDX-License-Identifier: GPL-3.0-or-later
 // Made by page/build.mjs.
-#include "page/page_file.hpp"
+#include "${header}"
 
-std::string_view papilla::app::page_template() noexcept {
+std::string_view papilla::app::${name}() noexcept {
   static constexpr char text[] =
 ${chunks.map(literal).join('\n')};
   return {text, sizeof(text) - 1};
 }
 `);
-writeFileSync(output.replace(/\.cpp$/, '.html'), html);
+  writeFileSync(page.replace(/\.cpp$/, '.html'), html);
+}
+
+await write(output, {
+  html: 'index.html', script: 'main.mjs', style: 'style.css', markers: ['@PAPILLA_CONNECT@', '@PAPILLA_DATA@'],
+  header: 'page/page_file.hpp', name: 'page_template',
+});
+await write(studio, {
+  html: 'studio/studio.html', script: 'studio/main.mjs', style: 'studio/studio.css', markers: ['@PAPILLA_DATA@'],
+  header: 'studio/studio_session.hpp', name: 'studio_template',
+});

@@ -20,6 +20,7 @@
 #include "papilla/io/picture_memory.hpp"
 #include "parsing_only.hpp"
 #include "progress_printer.hpp"
+#include "publish.hpp"
 #include "standard_output.hpp"
 
 namespace papilla::app {
@@ -28,6 +29,7 @@ namespace {
 constexpr double k_more_for_reading_s = 60;
 
 int g_exit_code = 0;
+std::function<void(const Json&)> g_publish;  ///< Of the verb that runs.
 bool g_parsing_only = false;
 
 struct CommonOptions {
@@ -88,6 +90,14 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbInfo&
     return !cancels || !deadline.passed();
   };
   set_picture_memory(common.max_memory);
+  const auto write_json = [&](const Json& json) {
+    if (json_on_stdout)
+      print_out(json_text(json));
+    else if (!common.json.empty())
+      write_atomically(common.json, json_text(json));
+  };
+  bool is_published = false;
+  g_publish = [&](const Json& json) { write_json(json), is_published = true; };
   Json result;
   try {
     result = body(context);
@@ -101,10 +111,7 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbInfo&
   }
   context.progress = {};
   printer.reset();
-  if (json_on_stdout)
-    print_out(json_text(result));
-  else if (!common.json.empty())
-    write_atomically(common.json, json_text(result));
+  if (!is_published) write_json(result);
   g_exit_code = context.exit_code;
 }
 
@@ -113,6 +120,8 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbInfo&
 void Console::print(const std::string& text) const {
   if (!silent_) print_out(text);
 }
+
+void publish_result(const Json& result) { g_publish(result); }
 
 CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
   CLI::App* verb = program.add_subcommand(info.name, info.summary);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verbs.hpp"
 
+#include "verbs/studio.hpp"
+
 namespace papilla::app {
 
 void add_verbs(CLI::App& program) {
@@ -25,6 +27,7 @@ void add_verbs(CLI::App& program) {
   add_merge(program);
   add_batch(program);
   add_view(program);
+  add_studio(program);
   add_demo(program);
   add_cache(program);
   add_evaluate(program);

@@ -99,6 +99,8 @@ bool ChildProcess::is_running() const noexcept {
          info.si_pid == 0;
 }
 
+std::string ChildProcess::messages() const { return tail_of(messages_); }
+
 ChildEnd ChildProcess::wait() {
   // Its number is free for another process only when it is off the list.
   siginfo_t info{};

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <vector>
 
+#include "papilla/core/end_file_guard.hpp"
+
 namespace papilla {
 namespace {
 
@@ -93,6 +95,11 @@ void note_output(const fs::path& path) { add_output(path, "", false); }
 void forget_written_outputs() {
   const std::scoped_lock lock(guard().mutex);
   for (Entry& output : guard().outputs) output.written = false;
+}
+
+void end_file_guard() {
+  const std::scoped_lock lock(guard().mutex);
+  guard().active = false;
 }
 
 }  // namespace papilla

@@ -486,7 +486,7 @@ SurfaceInput PreparedBake::input_of(const SurfaceWork& work) const {
 }
 
 PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
-                          const ProgressCallback& progress) {
+                          const ProgressCallback& progress, const WholeScene* whole) {
   PreparedBake prepared;
   BakeResult& result = prepared.result;
   const double to_finish = k_seconds_to_finish * triangles_of_parts(scene);
@@ -501,7 +501,10 @@ PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions
   result.seconds = {{"sides", result.plan.sides.seconds},
                     {"leave_out", result.plan.perception_seconds},
                     {"simplify", result.plan.simplify_seconds}};
-  prepared.context = unwrap_context(result.scene, {});
+  prepared.context = whole ? whole->context : unwrap_context(result.scene, {});
+  if (whole && whole->keeps_triangles)
+    for (PartSurface& surface : result.plan.surfaces)
+      surface.plan[static_cast<std::size_t>(Stage::repair)] = {false, "the file is edited in place"};
   leave_out(result.scene, result.plan.perception);
   maker.finish_by(options.unwrap.method.deadline.earlier_by(to_finish));
   result.grains = make_grains(result.plan, maker, progress);
@@ -535,8 +538,8 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
 }
 
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
-                      const ProgressCallback& progress) {
-  PreparedBake prepared = prepare_bake(std::move(scene), rules, options, maker, progress);
+                      const ProgressCallback& progress, const WholeScene* whole) {
+  PreparedBake prepared = prepare_bake(std::move(scene), rules, options, maker, progress, whole);
   BakeResult& result = prepared.result;
   std::vector<SurfaceWork>& works = prepared.works;
   const std::vector<PartSurface>& surfaces = result.plan.surfaces;

@@ -460,7 +460,10 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
 }
 
 Digest grain_key(const MaterialRule& rule, const RecipeLibrary& library) {
-  return key_of("grain", rule, picture_digests(rule, library), library.recipes(), library.colours());
+  MaterialRule seen = rule;  // How its uv are made is no matter of a grain.
+  seen.unwrap = "auto";
+  seen.unwrap_options.reset();
+  return key_of("grain", seen, picture_digests(seen, library), library.recipes(), library.colours());
 }
 
 std::optional<Grain> find_grain(const MaterialRule& rule, const RecipeLibrary& library, const StageCache& cache) {

@@ -39,6 +39,13 @@ void GrainMaker::begin_ahead() {
   });
 }
 
+void GrainMaker::put(const std::string& material, Grain grain) {
+  const std::scoped_lock lock(mutex_);
+  Entry& entry = begun_[material];
+  entry.grain = std::move(grain);
+  entry.done = true;
+}
+
 Grain GrainMaker::take(const std::string& material) {
   if (begin(material)) make(material);
   std::unique_lock lock(mutex_);

@@ -37,6 +37,9 @@ class GrainMaker {
     deadline_ = deadline;
   }
 
+  /// A grain that was made before, for take().
+  void put(const std::string& material, Grain grain);
+
   /// The grain of a material, to be asked for once. Thread-safe.
   /// @throws what make_grain() does.
   Grain take(const std::string& material);

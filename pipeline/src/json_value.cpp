@@ -10,6 +10,7 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/plain_number.hpp"
 #include "papilla/core/read_file.hpp"
+#include "parse_json.hpp"
 
 namespace papilla {
 namespace {
@@ -104,19 +105,21 @@ std::vector<std::string> JsonValue::texts() const {
   return texts;
 }
 
-JsonValue::Json read_json(const std::filesystem::path& path) {
+JsonValue::Json read_json(const std::filesystem::path& path) { return parse_json(read_file(path), path.string()); }
+
+JsonValue::Json parse_json(const std::string& text, const std::string& name) {
   constexpr int k_most_levels = 64;  // Objects are copied as they grow: deep ones cost the square of their depth.
   const auto check_depth = [&](int depth, JsonValue::Json::parse_event_t, JsonValue::Json&) {
     if (depth > k_most_levels)
-      throw InvalidInput(path.string() + ": is nested deeper than " + std::to_string(k_most_levels) + " levels");
+      throw InvalidInput(name + ": is nested deeper than " + std::to_string(k_most_levels) + " levels");
     return true;
   };
   try {
-    return JsonValue::Json::parse(read_file(path), check_depth);
+    return JsonValue::Json::parse(text, check_depth);
   } catch (const JsonValue::Json::parse_error& parse_error) {
-    throw InvalidInput(path.string() + ": byte " + std::to_string(parse_error.byte) + ": is no valid JSON");
+    throw InvalidInput(name + ": byte " + std::to_string(parse_error.byte) + ": is no valid JSON");
   } catch (const JsonValue::Json::out_of_range&) {
-    throw InvalidInput(path.string() + ": holds a number beyond the range of 64-bit floats");
+    throw InvalidInput(name + ": holds a number beyond the range of 64-bit floats");
   }
 }
 

@@ -10,10 +10,13 @@
 #include "lights_value.hpp"
 #include "object_textures/rules.hpp"
 #include "papilla/core/near_name.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/pipeline/library_material.hpp"
 #include "papilla/pipeline/material_library.hpp"
+#include "papilla/pipeline/studio/parse_materials.hpp"
+#include "parse_json.hpp"
 #include "unwrap_value.hpp"
 
 namespace papilla {
@@ -300,7 +303,12 @@ std::string_view map_key(Quantity quantity) noexcept {
 }
 
 Materials read_materials(const std::filesystem::path& path, const std::filesystem::path& library) {
-  const JsonValue::Json json = read_json(path);
+  return parse_materials(read_file(path), path, library);
+}
+
+Materials parse_materials(const std::string& text, const std::filesystem::path& path,
+                          const std::filesystem::path& library) {
+  const JsonValue::Json json = parse_json(text, path.string());
   const JsonValue root(json, path.string(), "");
   root.expect_keys({"$schema", "version", "materials", "assign", "decals", "replace", "$comment"});
   if (const auto v = root.get("version"))

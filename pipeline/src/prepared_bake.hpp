@@ -29,13 +29,20 @@ struct PreparedBake {
   SurfaceInput input_of(const SurfaceWork& work) const;
 };
 
-/// The first half of bake_scene(): plan_bake() and the grains.
-PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
-                          const ProgressCallback& progress);
+/// Of which a scene is a piece.
+struct WholeScene {
+  PartContext context;
+  bool keeps_triangles = false;  ///< It is edited in place: nothing is repaired.
+};
 
-/// bake_scene() with grains that may have been begun.
+/// The first half of bake_scene(): plan_bake() and the grains.
+/// @param whole null: the scene is no piece.
+PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
+                          const ProgressCallback& progress, const WholeScene* whole = nullptr);
+
+/// bake_scene() with grains that may have been begun, of a scene that may be a piece of another.
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
-                      const ProgressCallback& progress);
+                      const ProgressCallback& progress, const WholeScene* whole = nullptr);
 
 /// The same of a file, as bake_file() would read it.
 PreparedBake prepare_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,

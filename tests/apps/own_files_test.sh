@@ -75,6 +75,7 @@ demo       | -o made                                         |                  
 cache      | stats                                           |                                  | --json
 materials  | check own.json                                  | own.json                         | --output --picture --json
 study      | analyse study.json answers.csv                  | study.json answers.csv           | --output --answers --json
+studio     | scene.glb -m rules.json --library lib.recipes --reach volume.json --view volume2.json --no-open | scene.glb rules.json lib.recipes volume.json volume2.json | --json
 view       | scene.glb --tags scene2.glb --no-open           | scene.glb scene2.glb             | --output --json
 evaluate   | param one.obj  -o made                          | one.obj                          | --json'
 cp volume.json volume2.json

@@ -163,6 +163,8 @@ readonly library_uses='
 <fftw3 fftw3 libfftw3-dev PkgConfig::FFTW
 <ceres/ Ceres libceres-dev Ceres::ceres
 <boost/(asio|beast|math) Boost libboost-dev Boost::headers
+<httplib\.h> cpp-httplib libcpp-httplib-dev PkgConfig::HTTPLIB
+<websocketpp/ websocketpp libwebsocketpp-dev websocketpp::websocketpp
 <assimp/ assimp libassimp-dev assimp::assimp
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
 <zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB

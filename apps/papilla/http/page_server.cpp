@@ -18,7 +18,9 @@
 #include <set>
 #include <string_view>
 #include <thread>
+#include <vector>
 
+#include "http/admission.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/random_token.hpp"
 
@@ -39,32 +41,7 @@ constexpr std::size_t k_piece_bytes = 65536;  ///< Of a body; a client takes one
 constexpr int k_stream_buffer_bytes = 32768;  ///< Of a stream in the system: about a hundred samples.
 constexpr std::size_t k_other_files = 64;     ///< Descriptors left to the rest of the program.
 
-/// What a page of this server may do, beside what the page itself forbids.
-constexpr const char* k_page_policy =
-    "default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
-
-/// Takes the same time for every text of this length.
-bool equal_in_constant_time(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  volatile unsigned difference = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    difference = difference | (static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
-  return difference == 0;
-}
-
-/// The value of a query's first `token`.
-std::string_view token_of(std::string_view query) {
-  constexpr std::string_view k_name = "token=";
-  while (!query.empty()) {
-    const std::string_view pair = query.substr(0, query.find('&'));
-    if (pair.starts_with(k_name)) return pair.substr(k_name.size());
-    query.remove_prefix(std::min(pair.size() + 1, query.size()));
-  }
-  return {};
-}
 
 /// Raises the process's limit of descriptors to `wanted` as far as the system lets it. @returns the limit.
 std::size_t raise_descriptor_limit(std::size_t wanted) {
@@ -90,7 +67,7 @@ class PageServer::Loop {
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
-  std::string url() const { return "http://" + hosts_[0] + "/?token=" + token_; }
+  std::string url() const { return admission_->url(); }
 
  private:
   class Connection;
@@ -102,10 +79,9 @@ class PageServer::Loop {
 
   PageRoutes routes_;
   PageLimits limits_;
-  std::string token_ = random_token();
-  std::array<std::string, 3> hosts_;
-  std::list<Connection*> strangers_;  ///< The oldest first.
-  std::set<Connection*> clients_;     ///< That showed the token.
+  std::optional<Admission> admission_;  ///< Once the port is known.
+  std::list<Connection*> strangers_;    ///< The oldest first.
+  std::set<Connection*> clients_;       ///< That showed the token.
   std::array<char, k_piece_bytes> discarded_{};
   asio::io_context context_{1};  ///< Owns the connections through their handlers, so it ends before what they refer to.
   tcp::acceptor acceptor_{context_};
@@ -229,7 +205,7 @@ class PageServer::Loop::Connection : public std::enable_shared_from_this<Connect
     response_.set(http::field::cache_control, "no-store");
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("Referrer-Policy", "no-referrer");
-    response_.set("Content-Security-Policy", k_page_policy);
+    response_.set("Content-Security-Policy", page_policy());
     response_.set("Cross-Origin-Resource-Policy", "same-origin");
     response_.set("Cross-Origin-Opener-Policy", "same-origin");
     serializer_.emplace(response_);
@@ -296,9 +272,7 @@ PageServer::Loop::Loop(PageRoutes routes, int port, const PageLimits& limits)
   } catch (const boost::system::system_error& error) {
     throw IoError("127.0.0.1:" + std::to_string(port) + ": the port can't be used: " + error.code().message());
   }
-  const unsigned short bound = acceptor_.local_endpoint().port();
-  const std::string suffix = bound == 80 ? "" : ":" + std::to_string(bound);  // Browsers leave the usual port out.
-  hosts_ = {"127.0.0.1" + suffix, "localhost" + suffix, "[::1]" + suffix};
+  admission_.emplace(acceptor_.local_endpoint().port(), random_token());
   accept();
   pulse();
   thread_ = std::thread([this] { context_.run(); });
@@ -343,19 +317,14 @@ void PageServer::Loop::pulse() {
 }
 
 bool PageServer::Loop::admits(const http::request<http::string_body>& request) const {
-  const std::string_view target = view(request.target());
-  const std::size_t query = target.find('?');
-  const bool known =
-      query != std::string_view::npos && equal_in_constant_time(token_of(target.substr(query + 1)), token_);
-  const std::string host(view(request[http::field::host]));
-  if (request.count(http::field::host) != 1 || std::find(hosts_.begin(), hosts_.end(), host) == hosts_.end())
-    return false;
-  const auto [first_origin, last_origin] = request.equal_range(http::field::origin);
-  const auto [first_referer, last_referer] = request.equal_range(http::field::referer);
-  return known &&
-         std::all_of(first_origin, last_origin, [&](const auto& f) { return view(f.value()) == "http://" + host; }) &&
-         std::all_of(first_referer, last_referer,
-                     [&](const auto& f) { return view(f.value()).starts_with("http://" + host + "/"); });
+  const auto values_of = [&](http::field name) {
+    std::vector<std::string> values;
+    const auto [first, last] = request.equal_range(name);
+    for (auto field = first; field != last; ++field) values.emplace_back(view(field->value()));
+    return values;
+  };
+  return admission_->admits({std::string(view(request.target())), values_of(http::field::host),
+                             values_of(http::field::origin), values_of(http::field::referer)});
 }
 
 PageServer::PageServer(PageRoutes routes, int port, const PageLimits& limits)

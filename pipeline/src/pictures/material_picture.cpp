@@ -84,6 +84,7 @@ ColorImage material_picture(const MaterialRule& rule, const MaterialPictureOptio
   rules.assign.push_back(std::move(all));
   BakeOptions bake;
   bake.library = options.library;
+  bake.unwrap.method.cache = options.cache;
   const BakeResult baked = bake_scene(std::move(scene), rules, bake);
 
   SceneViewOptions view;

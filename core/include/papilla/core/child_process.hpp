@@ -40,6 +40,8 @@ class ChildProcess {
 
   void send(int signal) const noexcept;
   bool is_running() const noexcept;
+  /// What it wrote to standard error so far, as ChildEnd::messages.
+  std::string messages() const;
   /// Waits for its end. Once.
   ChildEnd wait();
 

@@ -7,10 +7,13 @@
 
 namespace papilla {
 
+class StageCache;
+
 struct MaterialPictureOptions {
   int side_px = 320;                                 ///< Of each of the two pictures; 64 to 2048.
   double ball_mm = 60;                               ///< Diameter of the ball: grain on it has its real size.
   RecipeLibrary library = RecipeLibrary::builtin();  ///< What the rule's recipe may name.
+  const StageCache* cache = nullptr;                 ///< Remembers the grain; null: none.
 };
 
 /// Two pictures side by side: a lit ball that is baked with the rule, as render_scene() shows it, and one repeat of its

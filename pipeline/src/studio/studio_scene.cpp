@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/studio/studio_scene.hpp"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+
+#include "../parse_json.hpp"
+#include "../prepared_bake.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/io/node_places.hpp"
+#include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/pipeline/assignment.hpp"
+#include "papilla/pipeline/hex_colour.hpp"
+#include "papilla/pipeline/studio/parse_materials.hpp"
+
+namespace papilla {
+namespace {
+
+using Json = JsonValue::Json;
+
+std::vector<std::uint32_t> slots_of(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  if (mesh.material.empty()) return {0};
+  const std::set<std::uint32_t> slots(mesh.material.begin(), mesh.material.end());
+  return {slots.begin(), slots.end()};
+}
+
+/// A triangle for each slot: all that rules look at.
+TriangleMesh bones(const std::vector<std::uint32_t>& slots) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}};
+  mesh.triangles.assign(slots.size(), {0, 0, 0});
+  mesh.material = slots;
+  return mesh;
+}
+
+std::string escaped(const std::string& name) {
+  std::string pattern;
+  for (const char c : name) {
+    if (std::string_view("*?[]\\").find(c) != std::string_view::npos) pattern += '\\';
+    pattern += c;
+  }
+  return pattern;
+}
+
+/// A material's JSON without what its grain does not depend on.
+std::string grain_key(Json material) {
+  if (material.is_object()) material.erase("unwrap"), material.erase("$comment");
+  return material.dump();
+}
+
+/// Lets a material name the pictures of another scene, which are taken along.
+class Pictures {
+ public:
+  Pictures(const Scene& from, Scene& to) : from_(from), to_(to) {}
+
+  void take(std::optional<TextureReference>& reference) {
+    if (!reference) return;
+    const auto [place, is_new] = textures_.try_emplace(reference->texture, to_.textures.size());
+    if (is_new) {
+      Texture texture = from_.textures.at(reference->texture);
+      if (texture.image) texture.image = image(*texture.image);
+      for (OtherImage& other : texture.others) other.image = image(other.image);
+      to_.textures.push_back(std::move(texture));
+    }
+    reference->texture = static_cast<std::uint32_t>(place->second);
+  }
+
+ private:
+  std::uint32_t image(std::uint32_t number) {
+    const auto [place, is_new] = images_.try_emplace(number, to_.images.size());
+    if (is_new) to_.images.push_back(from_.images.at(number));
+    return static_cast<std::uint32_t>(place->second);
+  }
+
+  const Scene& from_;
+  Scene& to_;
+  std::map<std::uint32_t, std::size_t> textures_, images_;
+};
+
+/// The look that is left when the mesh was taken.
+std::shared_ptr<const Scene> look_of(Scene scene) {
+  scene.parts.clear();
+  scene.nodes.clear();
+  scene.roots.clear();
+  return std::make_shared<const Scene>(std::move(scene));
+}
+
+}  // namespace
+
+StudioScene::StudioScene(Scene scene, const BakeOptions& options, bool in_place)
+    : scene_(std::move(scene)), options_(options) {
+  const std::vector<NodePlace> places = node_places(scene_);
+  for (const Instance& use : instances(scene_)) uses_.push_back({use.node, use.part, use.world, places[use.node].path});
+  for (const Part& part : scene_.parts) slots_.push_back(slots_of(part.mesh));
+  std::vector<TriangleMesh> meshes;
+  for (std::size_t p = 0; p < scene_.parts.size(); ++p)
+    meshes.push_back(std::exchange(scene_.parts[p].mesh, bones(slots_[p])));
+  skeleton_ = scene_;
+  skeleton_.images.clear();
+  skeleton_.textures.clear();
+  for (std::size_t p = 0; p < scene_.parts.size(); ++p) scene_.parts[p].mesh = std::move(meshes[p]);
+  SceneSideOptions sides = options_.plan.sides;
+  sides.cache = options_.unwrap.method.cache;
+  const auto& view = options_.plan.perception.view;
+  const SceneSides found = in_place ? find_sides(scene_, sides, view) : turn_sheets(scene_, sides, view);
+  if (found.viewpoint == Viewpoint::inside || found.viewpoint == Viewpoint::room) eye_ = found.eye;
+  context_ = unwrap_context(scene_, {});
+  in_place_ = in_place;
+  options_.plan.sides.keep = true;
+  options_.plan.keep_copies = true;
+  options_.plan.perception = {};
+  options_.plan.budget.reset();
+}
+
+std::vector<SurfaceSelector> StudioScene::selectors(std::uint32_t part, std::uint32_t slot) const {
+  const Part& wanted = skeleton_.parts.at(part);
+  SurfaceSelector common;
+  if (slots_[part].size() > 1 && slot < wanted.materials.size()) {
+    const Material& material = skeleton_.materials[wanted.materials[slot]];
+    if (!material.name.empty()) common.gltf_material = escaped(material.name);
+    const auto has_name = [&](std::uint32_t other) {
+      return other < wanted.materials.size() && skeleton_.materials[wanted.materials[other]].name == material.name;
+    };
+    if (std::count_if(slots_[part].begin(), slots_[part].end(), has_name) > 1)
+      common.cad_colour = hex_colour(material.base_color);
+  }
+  const std::string& name = shown_name(wanted);
+  const auto is_named_so = [&](const Part& other) { return shown_name(other) == name; };
+  if (std::count_if(skeleton_.parts.begin(), skeleton_.parts.end(), is_named_so) == 1) {
+    common.part = escaped(name);
+    return {common};
+  }
+  std::vector<SurfaceSelector> selectors;
+  for (const StudioUse& use : uses_) {
+    if (use.part != part) continue;
+    selectors.push_back(common);
+    selectors.back().part = escaped(name);
+    selectors.back().node = escaped(use.path);
+  }
+  return selectors;
+}
+
+StudioPlan StudioScene::plan(const std::string& document, const std::filesystem::path& path,
+                             const std::filesystem::path& library) const {
+  StudioPlan plan;
+  plan.rules = parse_materials(document, path, library);
+  const Json materials = parse_json(document, path.string()).at("materials");
+  Scene skeleton = skeleton_;
+  const Assignment assignment = assign_materials(skeleton, plan.rules);
+  plan.uses = assignment.uses;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> known;  // By part of the skeleton, and slot.
+  for (std::uint32_t u = 0; u < uses_.size(); ++u) {
+    const std::uint32_t original = uses_[u].part, part = skeleton.nodes[uses_[u].node].part.value_or(original);
+    for (const std::uint32_t slot : slots_[original]) {
+      const auto [place, is_new] = known.try_emplace({part, slot}, plan.wishes.size());
+      if (is_new) {
+        StudioWish wish{original, slot, {}, {}, {}, {}, {}};
+        const Part& shown = skeleton.parts[part];
+        wish.label = assignment.parts[part].is_split ? shown.id : shown_name(shown);
+        if (slots_[original].size() > 1)
+          wish.label += "/" + (slot < shown.materials.size() ? skeleton.materials[shown.materials[slot]].name
+                                                             : std::to_string(slot));
+        if (const MaterialRule* rule = assignment.parts[part].rule_of(slot)) wish.material = rule->name;
+        wish.key = std::to_string(original) + "/" + std::to_string(slot);
+        if (!wish.material.empty()) wish.rule = materials.at(wish.material).dump();
+        wish.key += " " + wish.label + " " + wish.material + " " + wish.rule;
+        plan.wishes.push_back(std::move(wish));
+      }
+      plan.wishes[place->second].uses.push_back(u);
+    }
+  }
+  return plan;
+}
+
+Scene StudioScene::piece(std::uint32_t number, std::uint32_t slot, const std::string& name) const {
+  const Part& part = scene_.parts.at(number);
+  Scene scene;
+  scene.format = scene_.format;
+  scene.up = scene_.up;
+  Part own;
+  own.name = name;
+  own.id = part.id;
+  if (slots_[number].size() == 1) {
+    own.mesh = part.mesh;
+  } else {
+    std::vector<Index> triangles;
+    for (Index t = 0; t < part.mesh.triangles.size(); ++t)
+      if (part.mesh.material[t] == slot) triangles.push_back(t);
+    own.mesh = extract_triangles(part.mesh, triangles);
+  }
+  own.mesh.material.clear();
+  if (slot < part.materials.size()) {
+    Material material = scene_.materials[part.materials[slot]];
+    Pictures pictures(scene_, scene);
+    for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture,
+                            &material.normal_texture, &material.occlusion_texture, &material.emissive_texture})
+      pictures.take(*reference);
+    material.extensions_json.clear();  // They name textures by numbers of the whole scene.
+    scene.materials.push_back(std::move(material));
+    own.materials = {0};
+  }
+  scene.parts.push_back(std::move(own));
+  Node node;
+  node.part = 0;
+  scene.nodes.push_back(std::move(node));
+  scene.roots = {0};
+  return scene;
+}
+
+Grain StudioScene::grain_of(const std::string& key, const MaterialRule& rule) {
+  const auto known =
+      std::find_if(grains_.begin(), grains_.end(), [&](const auto& entry) { return entry.first == key; });
+  if (known != grains_.end()) {
+    grains_.splice(grains_.begin(), grains_, known);
+  } else {
+    grains_.emplace_front(
+        key, make_grain(rule, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache));
+    if (grains_.size() > k_most_grains) grains_.pop_back();
+  }
+  return grains_.front().second;
+}
+
+StudioSurface StudioScene::as_read(std::uint32_t part, std::uint32_t slot) const {
+  Scene scene = piece(part, slot, {});
+  StudioSurface surface;
+  surface.part = part, surface.slot = slot;
+  surface.label = shown_name(scene_.parts[part]);
+  surface.key = std::to_string(part) + "/" + std::to_string(slot);
+  surface.mesh = shown_mesh(scene.parts[0].mesh);
+  surface.look = look_of(std::move(scene));
+  return surface;
+}
+
+StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, const ProgressCallback& progress) {
+  const Stopwatch clock;
+  if (wish.material.empty()) {
+    StudioSurface surface = as_read(wish.part, wish.slot);
+    surface.label = wish.label;
+    surface.key = wish.key;
+    surface.seconds = clock.seconds();
+    return surface;
+  }
+  const MaterialRule& rule = plan.rules.materials.at(wish.material);
+  Materials rules;
+  rules.source = plan.rules.source;
+  rules.materials.emplace(rule.name, rule);
+  AssignRule all;
+  all.part = "*";
+  all.material = rule.name;
+  rules.assign.push_back(std::move(all));
+  GrainMaker maker(rules, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache);
+  report_progress(progress, wish.label, 0);
+  if (!rule.texture.empty()) {
+    maker.put(rule.name, grain_of(grain_key(parse_json(wish.rule, plan.rules.source)), rule));
+  }
+  report_progress(progress, wish.label, 0.5);
+  const WholeScene whole{context_, in_place_};
+  BakeResult result = bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
+  StudioSurface surface;
+  surface.part = wish.part, surface.slot = wish.slot;
+  surface.label = wish.label;
+  surface.key = wish.key;
+  if (!result.surfaces.empty()) {
+    surface.report = std::move(result.surfaces.front());
+    surface.report.part = wish.part, surface.report.slot = wish.slot;
+  }
+  surface.mesh = shown_mesh(result.scene.parts[0].mesh, surface.report.distortion);
+  surface.report.mesh = {};
+  surface.report.distortion.per_triangle.clear();
+  if (!result.scene.parts[0].materials.empty())
+    surface.mm_per_uv = result.mm_per_uv.at(result.scene.parts[0].materials[0]);
+  surface.warnings = result.scene.warnings;
+  surface.look = look_of(std::move(result.scene));
+  surface.seconds = clock.seconds();
+  return surface;
+}
+
+}  // namespace papilla

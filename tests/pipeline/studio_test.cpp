@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "papilla/core/atomic_file.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/pipeline/studio/allowed_folders.hpp"
+#include "papilla/pipeline/studio/shown_mesh.hpp"
+#include "papilla/pipeline/studio/studio_document.hpp"
+#include "papilla/pipeline/studio/studio_scene.hpp"
+#include "papilla_test/shapes.hpp"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_document = R"({"materials": {"grain": {"texture": "grain:spheres6", "size_mm": [10, 10]},
+  "hard": {"stiffness": 2000}}, "assign": [{"part": "a", "material": "hard"}, {"part": "*", "material": "hard"}]})";
+
+SurfaceSelector part(const std::string& name) {
+  SurfaceSelector selector;
+  selector.part = name;
+  return selector;
+}
+
+Json edited(const std::string& document, StudioEdit::Kind kind, const std::vector<std::string>& parts,
+            const std::string& material, const std::map<std::string, std::string>& values = {}) {
+  StudioEdit edit;
+  edit.kind = kind;
+  for (const std::string& name : parts) edit.surfaces.push_back(part(name));
+  edit.material = material;
+  edit.values = values;
+  return Json::parse(edited_document(document, edit, "m.json"));
+}
+
+TEST(StudioDocument, AnAssignmentGoesFirstAndReplacesThatOfTheSameSurfaces) {
+  const Json json = edited(k_document, StudioEdit::Kind::assign, {"a", "b"}, "grain");
+  EXPECT_EQ(json["assign"], Json::parse(R"([{"part": "a", "material": "grain"}, {"part": "b", "material": "grain"},
+    {"part": "*", "material": "hard"}])"));
+  EXPECT_EQ(json["materials"], Json::parse(k_document)["materials"]);
+  EXPECT_TRUE(edited(k_document, StudioEdit::Kind::assign, {"a"}, "")["assign"][0]["material"].is_null());
+}
+
+TEST(StudioDocument, AVariationIsOfTheSurfacesAloneAndIsVariedItselfNextTime) {
+  const Json once = edited(k_document, StudioEdit::Kind::vary, {"a"}, "grain", {{"/size_mm", "[5,5]"}});
+  EXPECT_EQ(once["materials"]["grain"]["size_mm"], Json::parse("[10,10]"));
+  EXPECT_EQ(once["materials"]["grain on a"]["size_mm"], Json::parse("[5,5]"));
+  EXPECT_EQ(once["assign"][0], Json::parse(R"({"part": "a", "material": "grain on a"})"));
+  const Json twice = edited(once.dump(), StudioEdit::Kind::vary, {"a"}, "grain on a", {{"/unwrap/grain", "[1,0,0]"}});
+  EXPECT_EQ(twice["materials"].size(), 3U);
+  EXPECT_EQ(twice["materials"]["grain on a"]["unwrap"]["grain"], Json::parse("[1,0,0]"));
+}
+
+TEST(StudioDocument, ValuesGoToTheirPlaceAndNullTakesThemAway) {
+  Json json = edited(k_document, StudioEdit::Kind::set, {}, "grain", {{"/unwrap", "\"lscm\""}});
+  json = edited(json.dump(), StudioEdit::Kind::set, {}, "grain", {{"/unwrap/grain", "[1,0,0]"}});
+  EXPECT_EQ(json["materials"]["grain"]["unwrap"], Json::parse(R"({"method": "lscm", "grain": [1, 0, 0]})"));
+  json =
+      edited(json.dump(), StudioEdit::Kind::set, {}, "grain", {{"/unwrap/grain", "null"}, {"/unwrap/method", "null"}});
+  EXPECT_FALSE(json["materials"]["grain"].contains("unwrap"));
+}
+
+TEST(StudioDocument, MaterialsComeAndGoWithTheirRules) {
+  const Json json = edited(k_document, StudioEdit::Kind::add, {}, "new", {{"/material", "\"library:metal/chrome\""}});
+  EXPECT_EQ(json["materials"]["new"], Json::parse(R"({"material": "library:metal/chrome"})"));
+  EXPECT_THROW(edited(k_document, StudioEdit::Kind::add, {}, "hard"), InvalidInput);
+  EXPECT_EQ(edited(k_document, StudioEdit::Kind::remove, {}, "hard")["assign"].size(), 0U);
+}
+
+TEST(StudioDocument, WhatHasNoPlaceIsRefused) {
+  using Kind = StudioEdit::Kind;
+  EXPECT_THROW(edited("[]", Kind::remove, {}, "hard"), InvalidInput);
+  EXPECT_THROW(edited("{", Kind::remove, {}, "hard"), InvalidInput);
+  EXPECT_THROW(edited(k_document, Kind::assign, {"a"}, "gone"), InvalidInput);
+  EXPECT_THROW(edited(k_document, Kind::set, {}, "hard", {{"stiffness", "1"}}), InvalidInput);
+  EXPECT_THROW(edited(k_document, Kind::set, {}, "hard", {{"/stiffness", "{"}}), InvalidInput);
+  EXPECT_THROW(edited(k_document, Kind::set, {}, "hard", {{"/stiffness/x/y", "1"}, {"", "1"}}), InvalidInput);
+}
+
+TEST(StudioHistory, GoesBackAndForthAndForgetsWhatWasUndone) {
+  StudioHistory history("0");
+  history.add("1", "one");
+  history.add("1", "the same");
+  history.add("2", "two");
+  EXPECT_EQ(history.undo_title(), "two");
+  history.undo();
+  EXPECT_EQ(history.document(), "1");
+  EXPECT_EQ(history.redo_title(), "two");
+  history.undo();
+  history.undo();
+  EXPECT_EQ(history.document(), "0");
+  history.redo();
+  history.add("3", "three");
+  EXPECT_FALSE(history.can_redo());
+  history.undo();
+  EXPECT_EQ(history.document(), "1");
+  for (int i = 0; i < 3000; ++i) history.add(std::to_string(i + 10), "many");
+  while (history.can_undo()) history.undo();
+  EXPECT_EQ(history.document(), "2010") << "a thousand documents are kept";
+}
+
+class StudioFolders : public testing::Test {
+ protected:
+  StudioFolders() {
+    fs::create_directories(folder_ / "in/deep");
+    write_atomically(folder_ / "in/a.txt", "a");
+    write_atomically(folder_ / "out.txt", "o");
+    fs::create_symlink(folder_ / "out.txt", folder_ / "in/link");
+    fs::create_directory_symlink(folder_, folder_ / "in/up");
+  }
+  ~StudioFolders() override { fs::remove_all(folder_); }
+  const fs::path folder_ = fs::canonical(fs::temp_directory_path()) / ("studio-" + std::to_string(::getpid()));
+};
+
+TEST_F(StudioFolders, PathsStayInThem) {
+  const AllowedFolders folders({folder_ / "in"});
+  EXPECT_EQ(folders.file("a.txt", folder_ / "in"), folder_ / "in/a.txt");
+  EXPECT_EQ(folders.file("deep/../new.txt", folder_ / "in"), folder_ / "in/new.txt");
+  EXPECT_EQ(folders.file(folder_ / "in/deep/x", "/"), folder_ / "in/deep/x");
+  for (const char* path : {"../out.txt", "link", "up/out.txt", "up/in/../out.txt", "/etc/passwd", "", ".", "deep",
+                           "../in2/x", "deep/../../out.txt"})
+    EXPECT_THROW(folders.file(path, folder_ / "in"), InvalidInput) << path;
+  EXPECT_THROW(folders.file(fs::path(std::string("a\0b", 3)), folder_ / "in"), InvalidInput);
+  EXPECT_THROW(AllowedFolders({folder_ / "none"}), IoError);
+}
+
+TEST(StudioPaths, AreAllThatMayNameFiles) {
+  const std::string document = R"({"materials": {"m": {"texture": "t.png", "environment": "e.hdr", "color": "#000000",
+    "maps": {"friction": "f.png", "stiffness": {"picture": "s.png", "range": [0, 1]}},
+    "height": {"method": "auto", "images": ["1.jpg"], "lights": "l.json", "reference": [{"profile_csv": "p.csv"}]}}},
+    "decals": [{"picture": "d.png", "relief": {"picture": "r.png", "depth_mm": 1}}]})";
+  EXPECT_EQ(paths_of_materials(document, "m"),
+            (std::set<std::string>{"1.jpg", "d.png", "e.hdr", "f.png", "l.json", "p.csv", "r.png", "s.png", "t.png"}));
+}
+
+TEST(ShownMesh, SharesWhatAgreesAndFindsSeams) {
+  TriangleMesh square;  // Two triangles, folded flat: four vertices, no seam but the border.
+  square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  square.uv.values = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {5, 5}};
+  square.uv.indices = square.triangles;
+  const ShownMesh whole = shown_mesh(square);
+  EXPECT_EQ(whole.positions.size(), 12U);
+  EXPECT_EQ(whole.seams.size(), 4U * 6U);
+  for (std::size_t c = 0; c < 6; ++c)  // Every corner is where it was.
+    EXPECT_EQ(static_cast<double>(whole.positions[3 * whole.indices[c]]),
+              square.corner(c / 3, static_cast<int>(c % 3)).x);
+  square.uv.indices[1] = {4, 2, 3};
+  const ShownMesh cut = shown_mesh(square);
+  EXPECT_EQ(cut.positions.size(), 15U);
+  EXPECT_EQ(cut.seams.size(), 5U * 6U);
+  EXPECT_EQ(cut.measured, std::vector<float>(10, -1.0F));
+}
+
+/// Two plates of one name and size, a third of another, as parts of a scene.
+Scene plates() {
+  Scene scene;
+  scene.format = "OBJ";
+  scene.up = UpAxis::y;
+  for (const char* name : {"a", "b*", "b*"}) {
+    Part plate;
+    plate.name = name;
+    plate.mesh.positions = {{0, 0, 0}, {20, 0, 0}, {20, 30, 0}, {0, 30, 0}};
+    plate.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    plate.materials = {0};
+    Node node;
+    node.name = "n" + std::to_string(scene.parts.size());
+    node.part = static_cast<std::uint32_t>(scene.parts.size());
+    scene.roots.push_back(*node.part);
+    scene.nodes.push_back(node);
+    scene.parts.push_back(plate);
+  }
+  scene.materials.resize(1);
+  scene.materials[0].name = "plain";
+  assign_part_ids(scene);
+  return scene;
+}
+
+TEST(StudioScene, SelectorsMeanOneSurface) {
+  const StudioScene studio(plates(), {}, false);
+  for (std::uint32_t wanted = 0; wanted < 3; ++wanted) {
+    StudioEdit edit;
+    edit.surfaces = studio.selectors(wanted, 0);
+    edit.material = "grain";
+    const std::string document =
+        edited_document(R"({"materials": {"grain": {"texture": "grain:spheres6", "size_mm": [10, 10]}}, "assign": []})",
+                        edit, "m.json");
+    const StudioPlan plan = studio.plan(document, "m.json", {});
+    ASSERT_EQ(plan.wishes.size(), 3U);
+    for (const StudioWish& wish : plan.wishes) EXPECT_EQ(wish.material, wish.part == wanted ? "grain" : "");
+    EXPECT_EQ(plan.uses.front().problem, "");
+  }
+}
+
+TEST(StudioScene, ASurfaceIsWhatABakeMakesOfIt) {
+  const std::string document = R"({"materials": {"grain": {"texture": "grain:spheres6", "size_mm": [10, 10],
+    "unwrap": "planar"}}, "assign": [{"part": "a", "material": "grain"}]})";
+  BakeOptions options;
+  options.plan.sides.keep = true;
+  StudioScene studio(plates(), options, false);
+  const StudioPlan plan = studio.plan(document, "m.json", {});
+  const auto wish = std::find_if(plan.wishes.begin(), plan.wishes.end(), [](const auto& w) { return w.part == 0; });
+  const StudioSurface surface = studio.bake(plan, *wish);
+  const BakeResult baked = bake_scene(plates(), plan.rules, options);
+  const ShownMesh expected = shown_mesh(baked.scene.parts[0].mesh);
+  EXPECT_EQ(surface.mesh.positions, expected.positions);
+  EXPECT_EQ(surface.mesh.uv, expected.uv);
+  EXPECT_EQ(surface.mesh.indices, expected.indices);
+  ASSERT_EQ(surface.look->materials.size(), 1U);
+  ASSERT_TRUE(surface.look->materials[0].normal_texture);
+  EXPECT_EQ(surface.report.method, "planar");
+}
+
+TEST(StudioScene, GivesUpWhenItIsToldTo) {
+  StudioScene studio(plates(), {}, false);
+  const StudioPlan plan = studio.plan(
+      R"({"materials": {"h": {"stiffness": 1}}, "assign": [{"part": "*", "material": "h"}]})", "m.json", {});
+  EXPECT_THROW(studio.bake(plan, plan.wishes.front(), [](const Progress&) { return false; }), Cancelled);
+}
+
+}  // namespace
+}  // namespace papilla
