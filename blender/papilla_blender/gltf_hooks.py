@@ -25,7 +25,7 @@ def restore_numpy_bool():
     """
     import numpy
 
-    if not hasattr(numpy, "bool"):
+    if "bool" not in vars(numpy):
         numpy.bool = bool
 
 

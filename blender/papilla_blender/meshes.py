@@ -41,6 +41,8 @@ class Surface:
 
     def read_triangles(self):
         mesh = self.object.data
+        if len(mesh.vertices):
+            mesh.vertices[0].normal.copy()  # Blender cuts bent quads by normals once it has them, as exporters see it
         mesh.calc_loop_triangles()
         self.triangles = read_array(mesh.loop_triangles, "vertices", 3, np.int32)
         self.loops = read_array(mesh.loop_triangles, "loops", 3, np.int32)
