@@ -21,11 +21,12 @@ def lay_out(source, target, schemas):
 
 def pack(package, archive):
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as written:
-        for path in sorted(p for p in package.rglob("*") if p.is_file()):
-            entry = zipfile.ZipInfo(str(path.relative_to(package.parent)), OLDEST)
+        names = sorted(p.relative_to(package.parent).as_posix() for p in package.rglob("*") if p.is_file())
+        for name in names:
+            entry = zipfile.ZipInfo(name, OLDEST)
             entry.external_attr = 0o100644 << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
-            written.writestr(entry, path.read_bytes())
+            written.writestr(entry, (package.parent / name).read_bytes())
 
 
 def main(folder, *schemas):

@@ -14,7 +14,7 @@ class Job:
         self.stage, self.fraction = "", 0.0
         self._cancelled = threading.Event()
         self._result = self._error = None
-        self._thread = threading.Thread(target=self._run, args=(work,), daemon=True)
+        self._thread = threading.Thread(target=self._run, args=(work,), name="papilla job", daemon=True)
         self._thread.start()
 
     def _run(self, work):

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run_blender.sh MODULE...: runs in_blender.py; 77 where there is no Blender.
+# run_blender.sh NAME: runs NAME_test.py in Blender without a window, or in_window.py in one; 77 where there is no Blender.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 if ! command -v blender >/dev/null; then
@@ -10,6 +10,20 @@ fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 # Add-ons and settings of this run go where no other Blender looks.
-export BLENDER_USER_RESOURCES=$scratch BLENDER_USER_SCRIPTS=$scratch/scripts BLENDER_USER_CONFIG=$scratch/config
+export BLENDER_USER_SCRIPTS=$scratch/scripts BLENDER_USER_CONFIG=$scratch/config
 mkdir -p "$PAPILLA_WORK" "$scratch/scripts/addons" "$scratch/config"
-blender -b --factory-startup --python-exit-code 1 --python "$here/in_blender.py" -- "$@"
+if [[ $1 != window ]]; then
+  blender -b --factory-startup --python-exit-code 1 --python "$here/in_blender.py" -- "$1_test"
+  exit
+fi
+if ! command -v xvfb-run >/dev/null; then
+  echo "there is no program xvfb-run: ./run test installs it"
+  exit 77
+fi
+said=$scratch/said
+LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s '-screen 0 1280x900x24' blender --factory-startup --enable-event-simulate \
+  --window-geometry 0 0 1280 900 --python "$here/in_window.py" 2>&1 | tee "$said"
+if grep -q Traceback "$said"; then
+  echo "FAILED: a panel could not be drawn"
+  exit 1
+fi

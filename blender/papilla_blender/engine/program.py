@@ -116,16 +116,21 @@ class ProgramEngine(Engine):
 def _follow(process, progress):
     """Reads both streams until the program ends. @return (lines on stderr, stdout)."""
     lines, output, said = queue.Queue(), [], []
-    readers = [threading.Thread(target=lambda: output.append(process.stdout.read())),
-               threading.Thread(target=lambda: [lines.put(line) for line in process.stderr])]
+
+    def read_errors():
+        for line in process.stderr:
+            lines.put(line)
+        lines.put(None)
+
+    readers = [threading.Thread(target=lambda: output.append(process.stdout.read())), threading.Thread(target=read_errors)]
     for reader in readers:
         reader.start()
-    stage, fraction = "", 0.0
-    while any(reader.is_alive() for reader in readers) or not lines.empty():
+    stage, fraction, line = "", 0.0, ""
+    while line is not None:
         try:
             line = lines.get(timeout=_poll_seconds)
         except queue.Empty:
-            line = None
+            line = ""
         if line and line.startswith('{"stage"'):
             event = json.loads(line)
             stage, fraction = event["stage"], event["fraction"]
@@ -136,6 +141,7 @@ def _follow(process, progress):
             for reader in readers:
                 reader.join()
             raise Cancelled
+    readers[0].join()
     return said, output[0]
 
 
