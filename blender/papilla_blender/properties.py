@@ -19,7 +19,7 @@ GUTTER_IS_AUTOMATIC = 0.0
 @functools.lru_cache(maxsize=256)
 def enum_items(names):
     """Items of an enumeration of words. Blender needs them to stay alive."""
-    return [(name, name.replace("-", " ").title(), "", i) for i, name in enumerate(names)]
+    return [(name, name, "", i) for i, name in enumerate(names)]
 
 
 def _from_engine(ask, first):

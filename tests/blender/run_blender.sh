@@ -16,12 +16,18 @@ if [[ $1 != window ]]; then
   blender -b --factory-startup --python-exit-code 1 --python "$here/in_blender.py" -- "$1_test"
   exit
 fi
-if ! command -v xvfb-run >/dev/null; then
-  echo "there is no program xvfb-run: ./run test installs it"
+if ! command -v Xvfb >/dev/null; then
+  echo "there is no program Xvfb: ./run test installs it"
   exit 77
 fi
 said=$scratch/said
-LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s '-screen 0 1280x900x24' blender --factory-startup --enable-event-simulate \
+Xvfb -displayfd 1 -screen 0 1280x900x24 -nolisten tcp >"$scratch/display" 2>/dev/null &
+trap 'kill $! 2>/dev/null; wait $! 2>/dev/null || true; rm -rf "$scratch"' EXIT
+for _ in {1..300}; do
+  [[ -s $scratch/display ]] && break
+  sleep 0.1
+done
+DISPLAY=:$(<"$scratch/display") LIBGL_ALWAYS_SOFTWARE=1 blender --factory-startup --enable-event-simulate \
   --window-geometry 0 0 1280 900 --python "$here/in_window.py" 2>&1 | tee "$said"
 if grep -q Traceback "$said"; then
   echo "FAILED: a panel could not be drawn"
