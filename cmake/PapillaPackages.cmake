@@ -52,7 +52,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   install(FILES ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/papilla COMPONENT papilla)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libpapilla-dev COMPONENT dev)
   # Menus and software centres.
-  install(FILES ${CMAKE_SOURCE_DIR}/packages/papilla.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT papilla)
+  install(FILES ${CMAKE_SOURCE_DIR}/packages/invalid.papilla.papilla.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT papilla)
   install(FILES ${CMAKE_SOURCE_DIR}/packages/papilla.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT papilla)
   install(FILES ${CMAKE_SOURCE_DIR}/packages/papilla.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps
           COMPONENT papilla)
