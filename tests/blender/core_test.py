@@ -59,6 +59,7 @@ class PackageTest(unittest.TestCase):
         # Words that Blender's extension server asks of a manifest.
         self.assertLessEqual(len(manifest["tagline"]), 64)
         self.assertNotIn(manifest["tagline"][-1], ".!?")
+        self.assertTrue(all(len(reason) <= 64 for reason in manifest["permissions"].values()))
         self.assertTrue(all(license.startswith("SPDX:") for license in manifest["license"]))
 
     def test_blender_is_imported_by_what_needs_it_only(self):

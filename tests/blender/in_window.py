@@ -71,6 +71,7 @@ def steps():
     area = view()
     area.spaces[0].show_region_ui = True
     area.spaces[0].shading.color_type = "VERTEX"
+    area.spaces[0].shading.light = "FLAT"
     area.spaces[0].overlay.show_overlays = False
     in_view(bpy.ops.view3d.view_selected)
     settings().method, settings().layer = "lscm", "papilla"
@@ -82,6 +83,7 @@ def steps():
         expect(time.time() - begun < 60, "the map comes")
         yield
     expect(settings().report[0].name.startswith("lscm: "), "the panel has the report")
+    settings().worst = 4.2
     expect(in_view(bpy.ops.papilla.measure, "INVOKE_DEFAULT") == {"RUNNING_MODAL"}, "measure goes on beside the window")
     while "papilla distortion" not in suzanne.data.color_attributes:
         expect(time.time() - begun < 120, "the colours come")
