@@ -41,7 +41,7 @@ endfunction()
 
 if(PAPILLA_BUILD_TOOLKIT)
   papilla_package(papilla papilla SECTION graphics SUMMARY "CAD interiors that can be seen and felt"
-    SUGGESTS "papilla-player, gnuplot-nox, www-browser"
+    SUGGESTS "papilla-player, python3-papilla, blender, gnuplot-nox, www-browser"
     TEXT "Papilla takes the surfaces of a car cockpit as CAD gives them, repairs and"
          "charts them, unwraps them in millimetres, reads photographs of grain as"
          "relief, and bakes the result into one glTF file whose materials carry what"
@@ -52,10 +52,21 @@ if(PAPILLA_BUILD_TOOLKIT)
   install(FILES ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/papilla COMPONENT papilla)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libpapilla-dev COMPONENT dev)
   # Menus and software centres.
-  install(FILES ${CMAKE_SOURCE_DIR}/packages/papilla.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT papilla)
+  install(FILES ${CMAKE_SOURCE_DIR}/packages/invalid.papilla.papilla.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT papilla)
   install(FILES ${CMAKE_SOURCE_DIR}/packages/papilla.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT papilla)
   install(FILES ${CMAKE_SOURCE_DIR}/packages/papilla.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps
           COMPONENT papilla)
+endif()
+if(TARGET papilla_python)
+  # Made for one version of Python; reads pictures, CAD and materials by what is in papilla.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(python ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
+  papilla_package(python python3-papilla SECTION python SUMMARY "CAD interiors that can be seen and felt, from Python"
+    DEPENDS "papilla (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), python3 (>= ${python}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy (>= 1:1.21)"
+    SUGGESTS "python3-matplotlib"
+    TEXT "The module papilla: scenes, meshes, charts, parameterizations and their"
+         "distortion, pictures, reliefs, recipes, bakes and contact, with numpy's arrays.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/packages/python/postinst ${CMAKE_SOURCE_DIR}/packages/python/prerm)
 endif()
 papilla_package(player papilla-player SECTION graphics SUMMARY "player of glTF files that can be felt"
   SUGGESTS "libasound2, libsndfile1"

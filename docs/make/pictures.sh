@@ -17,6 +17,10 @@ oiiotool --pattern constant:color=1,1,1 1800x1163 3 \
   --compression jpeg:90 -d uint8 -o "$out/cockpit.jpg"
 
 PYTHONPATH=$bin/../python MPLBACKEND=Agg /usr/bin/python3 "$make/../../examples/python/distortion_of_methods.py" "$out/python-methods.png"
+# Blender writes where it is told by whole paths only.
+PAPILLA_PICTURE=$(realpath -m "$out/blender.png") PAPILLA_WORK=$(realpath -m "$runs/blender") \
+  PAPILLA_PROGRAM=$(realpath "$bin/papilla") PAPILLA_ADDON=$(realpath "$bin/../blender/papilla_blender.zip") \
+  PAPILLA_MATERIAL_LIBRARY=$(realpath "$make/../../data/materials") "$make/../../tests/blender/run_blender.sh" window
 cp "$runs/meshing/charts.png" "$out/charts.png"
 cp "$runs/texture/grain/symmetry.png" "$out/symmetry.png"
 cp "$runs/param/evaluate-param-1.svg" "$out/evaluate-param.svg"

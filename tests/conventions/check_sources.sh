@@ -196,6 +196,7 @@ localedef locales
 qemu-system qemu-system-x86
 cpio cpio
 cpack dpkg-dev file
+blender blender
 slurmctld slurmctld
 slurmd slurmd
 sbatch slurm-client

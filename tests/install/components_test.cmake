@@ -18,7 +18,7 @@ set(dev "lib[^;]*/libpapilla\\.so" "lib[^;]*/libpapilla_haptic\\.a" include/papi
     include/papilla/core/vec\\.hpp "lib[^;]*/cmake/papilla/papilla-config\\.cmake" "lib[^;]*/pkgconfig/papilla\\.pc")
 set(papilla bin/papilla "lib[^;]*/papilla/papilla_cad\\.so" "lib[^;]*/papilla/papilla_pictures\\.so"
     share/bash-completion/completions/papilla share/papilla/demo/cockpit\\.step share/papilla/demo/materials\\.json
-    share/papilla/schema/materials\\.schema\\.json "share/papilla/materials/[^;]*\\.json")
+    share/papilla/schema/materials\\.schema\\.json "share/papilla/materials/[^;]*\\.json" share/papilla/blender/papilla_blender\\.zip)
 set(python "lib[^;]*/papilla/_papilla\\.[^;]*so" "lib[^;]*/papilla/__init__\\.py" "lib[^;]*/papilla/__init__\\.pyi"
     "lib[^;]*/papilla/py\\.typed")
 set(components player library dev)
