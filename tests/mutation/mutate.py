@@ -24,6 +24,7 @@ from pathlib import Path
 FIELDS = ("id", "file", "find", "replace", "why")
 TIMES_UNMUTATED = 3  # A fault may make a loop endless.
 LEAST_SECONDS = 10  # Starting a short program takes longer on a busy machine.
+SECONDS_TO_END = 5
 COMPILER_SAYS = re.compile(r"\berror:|undefined reference|multiple definition")
 FAILED_CASE = re.compile(r"^\[  FAILED  \] (\S+?)[,. ]*(?:\(|$|,| where)", re.MULTILINE)
 
@@ -101,6 +102,21 @@ def git(folder, *arguments):
     return done.stdout.strip()
 
 
+def end_group(child):
+    """Ends a child and its group. Ninja is asked first: its compilers have groups of their own, which it ends itself."""
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        try:
+            os.killpg(child.pid, number)
+            until = time.monotonic() + SECONDS_TO_END
+            while time.monotonic() < until:
+                child.poll()
+                os.killpg(child.pid, 0)
+                time.sleep(0.05)
+        except ProcessLookupError:
+            break
+    child.wait()
+
+
 class Copy:
     """A git worktree of HEAD in build/mutation, in which faults are applied and taken back."""
 
@@ -149,8 +165,7 @@ class Copy:
                 code = None
             finally:
                 if child.poll() is None:
-                    os.killpg(child.pid, signal.SIGKILL)
-                    child.wait()
+                    end_group(child)
         return code, log.read_text(errors="replace")
 
     def configure(self):
