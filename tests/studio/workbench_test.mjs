@@ -70,7 +70,8 @@ try {
   await page.locator('#tab-part').click();
   await page.fill('#size-0', '20');
   await page.fill('#size-1', '20');
-  await page.waitForFunction((name) => globalThis.studio.state.surfaces.find((s) => s.label === name).material.includes(' on '), DASH);
+  // The material is of this part alone: it is changed, not copied.
+  await page.waitForFunction((name) => globalThis.studio.state.document.materials[name].size_mm?.every((mm) => mm === 20), LEATHER);
   await page.locator('#grain').selectOption('longest');
   await page.waitForFunction(() => Object.values(globalThis.studio.state.document.materials).some((m) => m.unwrap?.grain === 'longest'));
   await all();
