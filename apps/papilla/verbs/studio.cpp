@@ -74,7 +74,7 @@ void add_studio(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb =
       add_verb(program,
-               {"studio", "Choose materials for a scene in the browser, and see, feel and bake the result.",
+               {"studio", "Choose materials for a scene in the browser, see them on it, and bake the result.",
                 "papilla studio data/cockpit.step -m examples/materials.json", VerbInfo::AtDeadline::ends,
                 VerbInfo::Remembers::yes},
                [options](VerbContext& context) { return run(*options, context); });
