@@ -35,7 +35,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
   find_package(CGAL REQUIRED)
   find_package(Boost 1.74 REQUIRED)  # Headers only: Beast, Asio and Math.
-  find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+  find_package(OpenSSL REQUIRED COMPONENTS Crypto SSL)
   pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
   find_package(websocketpp REQUIRED)
   find_package(TBB REQUIRED)

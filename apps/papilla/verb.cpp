@@ -20,7 +20,6 @@
 #include "papilla/io/picture_memory.hpp"
 #include "parsing_only.hpp"
 #include "progress_printer.hpp"
-#include "publish.hpp"
 #include "standard_output.hpp"
 
 namespace papilla::app {

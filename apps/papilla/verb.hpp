@@ -59,6 +59,10 @@ using VerbBody = std::function<Json(VerbContext&)>;
 /// The caller adds its own options to the returned command, bound to an object that `body` shares.
 CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body);
 
+/// Gives the machine-readable result of the verb that runs now, for one that goes on: what its body returns is not
+/// written any more.
+void publish_result(const Json& result);
+
 /// The exit code that the verb which ran asked for.
 int verb_exit_code() noexcept;
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verbs.hpp"
 
-#include "verbs/studio.hpp"
-
 namespace papilla::app {
 
 void add_verbs(CLI::App& program) {

@@ -26,6 +26,7 @@ void add_bake(CLI::App& program);
 void add_split(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_view(CLI::App& program);
+void add_studio(CLI::App& program);
 void add_demo(CLI::App& program);
 void add_cache(CLI::App& program);
 void add_evaluate(CLI::App& program);

@@ -19,14 +19,16 @@ StageCache::StageCache(ContentStore store, const StageCache* shared)
     : store_(std::move(store)), shared_(shared), counts_(std::make_unique<Counts>()) {}
 StageCache::~StageCache() = default;
 
+std::unique_ptr<StageCache> StageCache::for_child() const {
+  auto own_shared = shared_ != nullptr ? std::make_unique<StageCache>(shared_->store_) : nullptr;
+  auto own = std::make_unique<StageCache>(store_, own_shared.get());
+  own->own_shared_ = std::move(own_shared);
+  return own;
+}
+
 CacheCounts StageCache::counts() const {
   const std::scoped_lock lock(counts_->mutex);
   return counts_->of_stage;
-}
-
-CacheCounts StageCache::take_counts() const {
-  const std::scoped_lock lock(counts_->mutex);
-  return std::exchange(counts_->of_stage, {});
 }
 
 std::string StageCache::problem() const {

@@ -44,6 +44,7 @@ pid_t spawn(std::vector<std::string>& words, const std::filesystem::path& folder
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
+  ::posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);  // Such as sockets of libraries.
   if (!folder.empty()) ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   pid_t child = 0;
   error = ::posix_spawnp(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);

@@ -6,8 +6,6 @@
 #include <system_error>
 #include <vector>
 
-#include "papilla/core/end_file_guard.hpp"
-
 namespace papilla {
 namespace {
 

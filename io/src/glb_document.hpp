@@ -213,9 +213,16 @@ struct GlbMesh {
   std::optional<Dequantization> positions;
 };
 
-/// The glTF mesh of a part: one primitive per material slot that has triangles.
-GlbMesh glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, const GlbWriteOptions& options,
-                 GlbBuffer& buffer);
+/// The vertices and triangles of a part's glTF mesh: one primitive per material slot that has triangles.
+struct GlbPrimitives;
+
+/// Most of the work, which needs no buffer: parts may be worked on at once.
+std::shared_ptr<GlbPrimitives> glb_primitives(const Part& part, const std::vector<MaterialNeeds>& materials,
+                                              const GlbWriteOptions& options);
+
+/// The glTF mesh of a part.
+/// @param primitives  of the part; taken.
+GlbMesh glb_mesh(const Part& part, std::shared_ptr<GlbPrimitives> primitives, MeshCoding coding, GlbBuffer& buffer);
 
 /// Repeats the height maps of haptic tags as MPEG_material_haptic (ISO/IEC DIS 23090-14, second edition; a draft): a
 /// material at the root for each tag with a map, its vibrotactileTexture of type High_Resolution with the map's scale

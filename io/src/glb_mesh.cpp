@@ -400,10 +400,9 @@ Json write_plain(Primitive primitive, std::vector<std::array<float, 4>> tangents
   return {{"attributes", std::move(attributes)}, {"indices", indices}};
 }
 
-Json write_primitive(Primitive primitive, const GlbLayout& layout, MeshCoding coding, GlbBuffer& buffer) {
+Json write_primitive(Primitive primitive, std::vector<std::array<float, 4>> tangents, const GlbLayout& layout,
+                     MeshCoding coding, GlbBuffer& buffer) {
   GlbVertices& vertices = primitive.vertices;
-  std::vector<std::array<float, 4>> tangents;
-  if (layout.tangents) tangents = tangents_of(primitive, layout.tangent_tex_coord);
   const std::size_t plain = plain_bytes(primitive, layout);
   buffer.count_mesh(layout.grid ? 0 : plain, plain);
   if (!layout.grid) return write_plain(std::move(primitive), std::move(tangents), layout, buffer);
@@ -491,54 +490,84 @@ std::vector<std::vector<Index>> triangles_by_slot(const Part& part) {
   return slots;
 }
 
+/// A primitive of a slot, and its tangents where its material asks for them.
+struct SlotPrimitive {
+  std::size_t slot;
+  GlbLayout layout;
+  Primitive primitive;
+  std::vector<std::array<float, 4>> tangents;
+};
+
+/// Which attributes the primitive of a slot has. @param grid of the part.
+GlbLayout layout_of(const Part& part, std::size_t slot, std::span<const Index> triangles,
+                    const std::vector<MaterialNeeds>& materials, const GlbWriteOptions& options,
+                    const std::optional<VertexGrid>& grid) {
+  const TriangleMesh& mesh = part.mesh;
+  GlbLayout layout{any_value(mesh.uv, triangles) ? 1 : 0,
+                   any_value(mesh.colors, triangles),
+                   false,
+                   0,
+                   options.cad_uv && any_value(mesh.cad_uv, triangles),
+                   grid};
+  if (any_value(mesh.uv1, triangles)) layout.tex_coords = 2;
+  MaterialNeeds needs;
+  if (slot < part.materials.size()) {
+    const std::uint32_t number = part.materials[slot];
+    if (number >= materials.size()) fail(part, fmt::format("names material {} of {}", number, materials.size()));
+    needs = materials[number];
+    layout.tex_coords = std::max(layout.tex_coords, needs.tex_coords);
+    layout.tangents = needs.tangents;
+    layout.tangent_tex_coord = needs.tangent_tex_coord;
+  }
+  if (grid)
+    layout.grid->uv = {uv_exponent(mesh.uv, triangles, needs.texels_per_uv[0]),
+                       uv_exponent(mesh.uv1, triangles, needs.texels_per_uv[1])};
+  return layout;
+}
+
 }  // namespace
 
-GlbMesh glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, const GlbWriteOptions& options,
-                 GlbBuffer& buffer) {
-  GlbMesh result;
+struct GlbPrimitives {
+  std::optional<VertexGrid> grid;
+  std::vector<SlotPrimitive> slots;
+};
+
+std::shared_ptr<GlbPrimitives> glb_primitives(const Part& part, const std::vector<MaterialNeeds>& materials,
+                                              const GlbWriteOptions& options) {
+  auto result = std::make_shared<GlbPrimitives>();
   if (part.mesh.triangles.empty()) return result;
   check_triangles(part);
   const CornerAttribute<Vec3> made =
       part.mesh.normals.empty() ? vertex_normals(part.mesh, options.crease_deg) : CornerAttribute<Vec3>{};
   const CornerAttribute<Vec3>& normals = part.mesh.normals.empty() ? made : part.mesh.normals;
-  std::optional<VertexGrid> grid;
-  if (options.meshes != MeshCoding::none) grid = grid_of_part(part, options);
-  Json mesh = Json::object();
-  if (!part.name.empty()) mesh["name"] = part.name;
+  if (options.meshes != MeshCoding::none) result->grid = grid_of_part(part, options);
   const auto slots = triangles_by_slot(part);
   for (std::size_t slot = 0; slot < slots.size(); ++slot) {
     if (slots[slot].empty()) continue;
-    const TriangleMesh& triangles = part.mesh;
-    GlbLayout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0,
-                     any_value(triangles.colors, slots[slot]),
-                     false,
-                     0,
-                     options.cad_uv && any_value(triangles.cad_uv, slots[slot]),
-                     grid};
-    if (any_value(triangles.uv1, slots[slot])) layout.tex_coords = 2;
-    MaterialNeeds needs;
-    if (slot < part.materials.size()) {
-      const std::uint32_t number = part.materials[slot];
-      if (number >= materials.size()) fail(part, fmt::format("names material {} of {}", number, materials.size()));
-      needs = materials[number];
-      layout.tex_coords = std::max(layout.tex_coords, needs.tex_coords);
-      layout.tangents = needs.tangents;
-      layout.tangent_tex_coord = needs.tangent_tex_coord;
-    }
-    if (grid)
-      layout.grid->uv = {uv_exponent(triangles.uv, slots[slot], needs.texels_per_uv[0]),
-                         uv_exponent(triangles.uv1, slots[slot], needs.texels_per_uv[1])};
-    Primitive collected = Collector(part, normals, layout).collect(slots[slot]);
-    if (collected.triangles.empty()) continue;
-    Json primitive = write_primitive(std::move(collected), layout, options.meshes, buffer);
+    const GlbLayout layout = layout_of(part, slot, slots[slot], materials, options, result->grid);
+    Primitive primitive = Collector(part, normals, layout).collect(slots[slot]);
+    if (primitive.triangles.empty()) continue;
+    std::vector<std::array<float, 4>> tangents;
+    if (layout.tangents) tangents = tangents_of(primitive, layout.tangent_tex_coord);
+    result->slots.push_back({slot, layout, std::move(primitive), std::move(tangents)});
+  }
+  return result;
+}
+
+GlbMesh glb_mesh(const Part& part, std::shared_ptr<GlbPrimitives> primitives, MeshCoding coding, GlbBuffer& buffer) {
+  GlbMesh result;
+  if (primitives->slots.empty()) return result;
+  Json mesh = Json::object();
+  if (!part.name.empty()) mesh["name"] = part.name;
+  for (auto& [slot, layout, content, tangents] : primitives->slots) {
+    Json primitive = write_primitive(std::move(content), std::move(tangents), layout, coding, buffer);
     if (slot < part.materials.size()) primitive["material"] = part.materials[slot];
     mesh["primitives"].push_back(std::move(primitive));
   }
-  if (!mesh.contains("primitives")) return result;
   if (!part.extras_json.empty())
     mesh["extras"] = parse_scene_json(part.extras_json, fmt::format("part '{}'.extras", part.name));
   result.json = std::move(mesh);
-  if (grid && grid->origin) {
+  if (const auto& grid = primitives->grid; grid && grid->origin) {
     const double step = std::ldexp(1.0, grid->position);
     const auto& [x, y, z] = *grid->origin;
     result.positions = {

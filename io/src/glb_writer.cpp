@@ -2,11 +2,15 @@
 #include "papilla/io/glb_writer.hpp"
 
 #include <fmt/core.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <exception>
+#include <memory>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -74,7 +78,7 @@ class NodeWriter {
     levels_of_part_.resize(scene_.parts.size());
     std::set<std::uint32_t> parts;
     for (const Instance& instance : used) parts.insert(instance.part);
-    for (const std::uint32_t part : parts) mesh_of_part_[part] = write_mesh(scene_.parts[part]);
+    write_meshes({parts.begin(), parts.end()});
     for (const std::uint32_t part : parts) write_levels(part);
     add_tag_manifest(scene_, asset_extras_json, node_extras_);
     number_nodes();
@@ -86,8 +90,42 @@ class NodeWriter {
   }
 
  private:
-  std::optional<std::size_t> write_mesh(const Part& part) {
-    GlbMesh mesh = glb_mesh(part, needs_, options_, buffer_);
+  /// Parts at once, and one behind the other into the buffer.
+  void write_meshes(const std::vector<std::uint32_t>& parts) {
+    using oneapi::tbb::filter_mode;
+    using oneapi::tbb::make_filter;
+    struct Made {
+      std::uint32_t part = 0;
+      std::shared_ptr<GlbPrimitives> primitives = {};
+      std::exception_ptr failure = {};
+    };
+    auto next = parts.begin();
+    const auto take = [&](oneapi::tbb::flow_control& control) {
+      if (next != parts.end()) return *next++;
+      control.stop();
+      return std::uint32_t{0};
+    };
+    const auto make = [&](std::uint32_t part) {
+      Made made{part};
+      try {
+        made.primitives = glb_primitives(scene_.parts[part], needs_, options_);
+      } catch (...) {
+        made.failure = std::current_exception();
+      }
+      return made;
+    };
+    const auto write = [&](Made made) {
+      if (made.failure) std::rethrow_exception(made.failure);
+      mesh_of_part_[made.part] = write_mesh(scene_.parts[made.part], std::move(made.primitives));
+    };
+    const auto at_once = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()) + 2;
+    oneapi::tbb::parallel_pipeline(at_once, make_filter<void, std::uint32_t>(filter_mode::serial_in_order, take) &
+                                                make_filter<std::uint32_t, Made>(filter_mode::parallel, make) &
+                                                make_filter<Made, void>(filter_mode::serial_in_order, write));
+  }
+
+  std::optional<std::size_t> write_mesh(const Part& part, std::shared_ptr<GlbPrimitives> primitives) {
+    GlbMesh mesh = glb_mesh(part, std::move(primitives), options_.meshes, buffer_);
     if (mesh.json.is_null()) return std::nullopt;
     gltf_["meshes"].push_back(std::move(mesh.json));
     positions_of_mesh_.push_back(mesh.positions);
@@ -109,7 +147,7 @@ class NodeWriter {
       level.name = level_name(part.name, levels_of_part_[number].size() + 1);
       level.mesh = source.mesh;
       level.materials = part.materials;
-      const auto mesh = write_mesh(level);
+      const auto mesh = write_mesh(level, glb_primitives(level, needs_, options_));
       if (!mesh) return;
       levels_of_part_[number].push_back(*mesh);
     }

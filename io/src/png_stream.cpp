@@ -14,7 +14,13 @@ namespace {
 void append(png_structp png, png_bytep data, std::size_t length) {
   auto& bytes = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
   const auto* from = reinterpret_cast<const std::byte*>(data);
-  bytes.insert(bytes.end(), from, from + length);
+  bool is_kept = true;
+  try {
+    bytes.insert(bytes.end(), from, from + length);
+  } catch (...) {  // libpng is C: no exception goes through it.
+    is_kept = false;
+  }
+  if (!is_kept) png_error(png, "out of memory");
 }
 
 /// libpng leaves it by a jump when it fails: nothing in it has a destructor.

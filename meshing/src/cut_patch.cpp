@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <atomic>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -134,7 +135,8 @@ std::vector<ChartOutline> cut_patch(const SegmentedMesh& surface, const SeamWeig
                 [&](const Piece& piece, Work& work, std::vector<ChartOutline>& charts) -> std::vector<Work> {
                   ChartField field(piece);
                   if (!std::exchange(work.relieved, true)) {
-                    const std::vector<Index> relief = relieve(piece, field, weights, options.seam_cost);
+                    const double unit = options.common_price ? std::sqrt(surface.total_area / piece.area()) : 1;
+                    const std::vector<Index> relief = relieve(piece, field, weights, unit * options.seam_cost);
                     if (!relief.empty()) return patch.relieve(piece, relief, work);
                   }
                   ChartOutline outline = make_outline(piece, field);

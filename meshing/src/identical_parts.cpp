@@ -30,6 +30,11 @@ struct Motion {
 
   Vec3 turn(const Vec3& v) const noexcept { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
   Vec3 operator()(const Vec3& p) const noexcept { return turn(p) + translation; }
+  /// Undoes it.
+  Vec3 back(const Vec3& p) const noexcept {
+    const Vec3 v = p - translation;
+    return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
+  }
 };
 
 /// A triangle starting at its smallest place, so that equal ones compare equal whatever corner they start at.
@@ -178,50 +183,77 @@ bool same_attributes(const TriangleMesh& a, const TriangleMesh& b, const Canonic
          compare(a.colors, b.colors, same_color) && compare(a.normals, b.normals, same_normal);
 }
 
-/// Compares one original with other parts.
+/// Whether area and distances from the centre let a part be a copy. Ordered by size, the distances of a copy differ by
+/// no more than those of corresponding places do.
+/// @pre as many places.
+bool may_be_copy(const Shape& original, const Shape& part, const IdenticalOptions& options) {
+  constexpr double k_slack = 16;  // Of the tolerance: the centres inherit it, weighted by areas that do, too.
+  if (std::abs(part.area - original.area) > 4 * options.relative_tolerance * original.area) return false;
+  const double most = k_slack * options.relative_tolerance * original.diagonal;
+  return std::equal(original.by_distance.begin(), original.by_distance.end(), part.by_distance.begin(),
+                    [&](const auto& a, const auto& b) { return std::abs(a.first - b.first) <= most; });
+}
+
+std::vector<Index> all_places(const Shape& shape) {
+  std::vector<Index> all(shape.places.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
+/// A part that others are compared with.
+struct Original {
+  Original(const Shape& s, const IdenticalOptions& options)
+      : shape(s),
+        tolerance(options.relative_tolerance * s.diagonal),
+        anchors(choose_anchors(s, tolerance)),
+        tree(s.places, all_places(s)) {}
+
+  const Shape& shape;
+  double tolerance;
+  Anchors anchors;
+  detail::PointTree tree;
+};
+
+/// Compares an original with one part. @pre it has anchors.
 class Comparer {
  public:
-  Comparer(const Shape& original, const IdenticalOptions& options)
-      : original_(original),
+  Comparer(const Original& original, const Shape& part, const IdenticalOptions& options)
+      : original_(original.shape),
+        tolerance_(original.tolerance),
+        anchors_(original.anchors),
+        tree_(original.tree),
+        part_(part),
         options_(options),
-        tolerance_(options.relative_tolerance * original.diagonal),
-        anchors_(choose_anchors(original, tolerance_)) {}
+        taken_(original_.places.size(), 0),
+        place_of_(original_.places.size()) {}
 
   /// Fills `copy` and returns true when the part is the original moved.
-  bool is_copy(const Shape& part, PartCopy& copy) {
-    if (anchors_.b == k_no_value || std::abs(part.diagonal - original_.diagonal) > original_.diagonal ||
-        std::abs(part.area - original_.area) > 4 * options_.relative_tolerance * original_.area)
-      return false;
-    std::vector<Index> all(part.places.size());
-    std::iota(all.begin(), all.end(), Index{0});
-    const detail::PointTree tree(part.places, std::move(all));
-    taken_.assign(part.places.size(), 0);
-    trial_ = 0;
-    if (is_copy_at(part, tree, anchors_.a, anchors_.b, copy)) return true;
+  bool is_copy(PartCopy& copy) {
+    if (is_copy_at(anchors_.a, anchors_.b, copy)) return true;
 
     // The centres and distances inherit the tolerance of the vertices.
     const double slack = 4 * tolerance_;
     const double apart = norm(original_.places[anchors_.a] - original_.places[anchors_.b]);
-    const auto near_a = shell(part, original_.distance[anchors_.a], slack);
-    const auto near_b = shell(part, original_.distance[anchors_.b], slack);
+    const auto near_a = shell(part_, original_.distance[anchors_.a], slack);
+    const auto near_b = shell(part_, original_.distance[anchors_.b], slack);
     std::uint64_t pairs = 0;
     constexpr std::uint64_t k_pairs_per_trial = 100;
     for (const auto& [da, a] : near_a)
       for (const auto& [db, b] : near_b) {
         if (++pairs > k_pairs_per_trial * options_.most_trials || trial_ > options_.most_trials) return false;
-        if (std::abs(norm(part.places[a] - part.places[b]) - apart) > slack) continue;
-        if (is_copy_at(part, tree, a, b, copy)) return true;
+        if (std::abs(norm(part_.places[a] - part_.places[b]) - apart) > slack) continue;
+        if (is_copy_at(a, b, copy)) return true;
       }
     return false;
   }
 
  private:
-  bool is_copy_at(const Shape& part, const detail::PointTree& tree, Index a, Index b, PartCopy& copy) {
+  bool is_copy_at(Index a, Index b, PartCopy& copy) {
     ++trial_;
     const Motion motion = align(original_.centre, original_.places[anchors_.a], original_.places[anchors_.b],
-                                part.centre, part.places[a], part.places[b]);
+                                part_.centre, part_.places[a], part_.places[b]);
     double farthest = 0;
-    if (!match_places(part, tree, motion, farthest) || !match_triangles(part, motion)) return false;
+    if (!match_places(motion, farthest) || !match_triangles(motion)) return false;
     copy.max_distance_mm = farthest;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3& row = motion.rows[i];
@@ -233,14 +265,13 @@ class Comparer {
   }
 
   /// One to one, each within the tolerance.
-  bool match_places(const Shape& part, const detail::PointTree& tree, const Motion& motion, double& farthest) {
-    place_of_.resize(original_.places.size());
-    for (Index i = 0; i < original_.places.size(); ++i) {
-      const Vec3 p = motion(original_.places[i]);
+  bool match_places(const Motion& motion, double& farthest) {
+    for (Index i = 0; i < part_.places.size(); ++i) {
+      const Vec3 p = motion.back(part_.places[i]);
       double best = tolerance_;
       Index found = k_no_value;
-      tree.near_point(p, tolerance_, [&](Index j, const Vec3&) {
-        const double d = norm(part.places[j] - p);
+      tree_.near_point(p, tolerance_, [&](Index j, const Vec3&) {
+        const double d = norm(original_.places[j] - p);
         if (d <= best && taken_[j] != trial_) {
           best = d;
           found = j;
@@ -248,37 +279,76 @@ class Comparer {
       });
       if (found == k_no_value) return false;
       taken_[found] = trial_;
-      place_of_[i] = found;
+      place_of_[found] = i;
       farthest = std::max(farthest, best);
     }
     return true;
   }
 
-  bool match_triangles(const Shape& part, const Motion& motion) const {
+  bool match_triangles(const Motion& motion) const {
     std::vector<CanonicalTriangle> ours, theirs;
     for (std::size_t t = 0; t < original_.triangles.size(); ++t) {
       const Triangle& v = original_.triangles[t];
       ours.push_back(canonical({place_of_[v[0]], place_of_[v[1]], place_of_[v[2]]}, original_.sources[t]));
     }
-    for (std::size_t t = 0; t < part.triangles.size(); ++t)
-      theirs.push_back(canonical(part.triangles[t], part.sources[t]));
+    for (std::size_t t = 0; t < part_.triangles.size(); ++t)
+      theirs.push_back(canonical(part_.triangles[t], part_.sources[t]));
     std::sort(ours.begin(), ours.end());
     std::sort(theirs.begin(), theirs.end());
     for (std::size_t t = 0; t < ours.size(); ++t)
       if (ours[t].places != theirs[t].places ||
-          (options_.compare_attributes && !same_attributes(*original_.mesh, *part.mesh, ours[t], theirs[t], motion)))
+          (options_.compare_attributes && !same_attributes(*original_.mesh, *part_.mesh, ours[t], theirs[t], motion)))
         return false;
     return true;
   }
 
   const Shape& original_;
-  const IdenticalOptions& options_;
   double tolerance_;
-  Anchors anchors_;
-  std::vector<std::uint32_t> taken_;  ///< Per place of the part: the trial that took it last.
+  const Anchors& anchors_;
+  const detail::PointTree& tree_;
+  const Shape& part_;
+  const IdenticalOptions& options_;
+  std::vector<std::uint32_t> taken_;  ///< Per place of the original: the trial that took it last.
   std::uint32_t trial_ = 0;
-  std::vector<Index> place_of_;
+  std::vector<Index> place_of_;  ///< Of the part, per place of the original.
 };
+
+/// Compares parts that may be alike: the first that is none's copy is the original of those behind it that are its own.
+void compare_group(std::vector<std::uint32_t> left, const std::vector<std::unique_ptr<Shape>>& shapes,
+                   const IdenticalOptions& options, std::vector<PartCopy>& copies) {
+  for (; !left.empty(); std::erase_if(left, [&](std::uint32_t i) { return copies[i].original != k_no_value; })) {
+    const std::uint32_t first = left.front();
+    copies[first].original = first;
+    std::vector<std::uint32_t> candidates;
+    for (std::size_t k = 1; k < left.size(); ++k)
+      if (may_be_copy(*shapes[first], *shapes[left[k]], options)) candidates.push_back(left[k]);
+    if (candidates.empty()) continue;
+    const Original original(*shapes[first], options);
+    if (original.anchors.b == k_no_value) continue;
+    oneapi::tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t c) {
+      PartCopy& copy = copies[candidates[c]];
+      if (Comparer(original, *shapes[candidates[c]], options).is_copy(copy)) copy.original = first;
+    });
+  }
+}
+
+/// @throws InvalidInput naming the first part that has no mesh or one that can't be compared.
+void check_parts(std::span<const ComparedPart> parts) {
+  std::vector<std::string> faults(parts.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    const std::string name = "find_identical_parts: parts[" + std::to_string(i) + "]";
+    try {
+      if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
+      detail::check_mesh(*parts[i].mesh, name);
+      Bounds3 bounds;
+      detail::check_distance_input(*parts[i].mesh, name + ".mesh", bounds);
+    } catch (const InvalidInput& fault) {
+      faults[i] = fault.what();
+    }
+  });
+  for (const std::string& fault : faults)
+    if (!fault.empty()) throw InvalidInput(fault);
+}
 
 }  // namespace
 
@@ -286,13 +356,7 @@ std::vector<PartCopy> find_identical_parts(std::span<const ComparedPart> parts, 
   constexpr double k_loosest = 1e-2;
   if (!(options.relative_tolerance > 0 && options.relative_tolerance <= k_loosest))
     throw InvalidInput("find_identical_parts: options.relative_tolerance is not in (0, 1e-2]");
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string name = "find_identical_parts: parts[" + std::to_string(i) + "]";
-    if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
-    detail::check_mesh(*parts[i].mesh, name);
-    Bounds3 bounds;
-    detail::check_distance_input(*parts[i].mesh, name + ".mesh", bounds);
-  }
+  check_parts(parts);
   std::vector<std::unique_ptr<Shape>> shapes(parts.size());
   {
     const ColdArrays waiting;
@@ -308,18 +372,9 @@ std::vector<PartCopy> find_identical_parts(std::span<const ComparedPart> parts, 
   for (const auto& [key, members] : by_key) groups.push_back(&members);
 
   std::vector<PartCopy> copies(parts.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    std::vector<std::pair<std::uint32_t, Comparer>> originals;
-    for (const std::uint32_t i : *groups[g]) {
-      copies[i].original = i;
-      const auto found = std::find_if(originals.begin(), originals.end(),
-                                      [&](auto& original) { return original.second.is_copy(*shapes[i], copies[i]); });
-      if (found != originals.end())
-        copies[i].original = found->first;
-      else if (groups[g]->size() > 1)
-        originals.emplace_back(i, Comparer(*shapes[i], options));
-    }
-  });
+  for (PartCopy& copy : copies) copy.original = k_no_value;
+  oneapi::tbb::parallel_for(std::size_t{0}, groups.size(),
+                            [&](std::size_t g) { compare_group(*groups[g], shapes, options, copies); });
   return copies;
 }
 

@@ -113,6 +113,9 @@ class Opener {
     return {mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)};
   }
 
+  /// Of the piece: two borders between the same vertices are one edge to OpenMesh, and no border.
+  bool is_border(EdgeHandle e) const { return piece_.opposite[number_[at(e)]] == k_none; }
+
   double loop_length(EdgeHandle e) const {
     const auto [a, b] = ends(e);
     return distance_[at(a)] + cost_[at(e)] + distance_[at(b)];
@@ -126,7 +129,7 @@ class Opener {
       if (e.is_valid()) in_tree[at(e)] = 1;
     std::vector<EdgeHandle> rest;
     for (const EdgeHandle e : mesh_.edges())
-      if (!in_tree[at(e)] && (!mesh_.is_boundary(e) || hole_[at(e)] != k_none)) rest.push_back(e);
+      if (!in_tree[at(e)] && (!is_border(e) || hole_[at(e)] != k_none)) rest.push_back(e);
     std::stable_sort(rest.begin(), rest.end(),
                      [&](EdgeHandle a, EdgeHandle b) { return loop_length(a) > loop_length(b); });
     UnionFind dual(mesh_.n_faces() + holes_);
@@ -160,7 +163,7 @@ class Opener {
   std::vector<Index> collect(const std::vector<std::uint8_t>& cut) const {
     std::vector<Index> cuts;
     for (const EdgeHandle e : mesh_.edges())
-      if (cut[at(e)] && !mesh_.is_boundary(e)) cuts.push_back(number_[at(e)]);
+      if (cut[at(e)] && !is_border(e)) cuts.push_back(number_[at(e)]);
     return cuts;
   }
 

@@ -13,6 +13,12 @@ double Piece::area(Index t) const noexcept {
   return 0.5 * norm(cross(positions[c[1]] - positions[c[0]], positions[c[2]] - positions[c[0]]));
 }
 
+double Piece::area() const noexcept {
+  double sum = 0;
+  for (Index t = 0; t < size(); ++t) sum += area(t);
+  return sum;
+}
+
 Piece PieceCutter::cut(std::vector<Index> triangles) {
   Piece piece;
   piece.triangle_of = std::move(triangles);

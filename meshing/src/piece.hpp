@@ -24,6 +24,7 @@ struct Piece {
   Index to(Index h) const noexcept { return from(next_halfedge(h)); }
   double length(Index h) const noexcept { return norm(positions[to(h)] - positions[from(h)]); }
   double area(Index t) const noexcept;
+  double area() const noexcept;
   bool on_border(Index v) const noexcept { return opposite[out[v]] == k_none; }
   /// The surface's half-edge.
   Index halfedge_of(Index h) const noexcept { return 3 * triangle_of[h / 3] + h % 3; }

@@ -39,9 +39,7 @@ class Reliever {
   }
 
   std::vector<Index> run(double seam_cost) {
-    double area = 0;
-    for (Index t = 0; t < piece_.size(); ++t) area += piece_.area(t);
-    const double price = seam_cost / std::sqrt(area);
+    const double price = seam_cost / std::sqrt(piece_.area());
     std::vector<Index> taken;
     for (int i = 0; i < k_max_cuts; ++i) {
       const double before = field_.distortion(), spread = field_.squared_scale();

@@ -78,6 +78,15 @@ std::vector<float> triangle_openness(const SegmentedMesh& surface) {
   return open;
 }
 
+std::vector<float> openness_to(const SegmentedMesh& surface, const Vec3& eye) {
+  std::vector<float> open(surface.size());
+  const TriangleBvh tree(surface.positions, surface.triangles);
+  oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(surface.size()), [&](Index t) {
+    open[t] = tree.blocks(centroid(surface, t), eye, t) ? static_cast<float>(k_least_openness) : 1;
+  });
+  return open;
+}
+
 SeamWeights::SeamWeights(const SegmentedMesh& surface, const std::vector<float>& openness, double feature_angle_deg)
     : surface_(surface), weight_(surface.opposite.size(), 1) {
   const double sharp = feature_angle_deg * k_radians_per_degree;

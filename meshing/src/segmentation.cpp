@@ -25,6 +25,7 @@ void check_options(const SegmentationOptions& options) {
   require(options.seam_cost >= 0 && options.seam_cost < 1e300, "seam_cost", options.seam_cost);
   require(options.feature_angle_deg > 0 && options.feature_angle_deg <= 180, "feature_angle_deg",
           options.feature_angle_deg);
+  if (options.eye && !is_finite(*options.eye)) throw InvalidInput("segment_charts: eye is not finite");
   require(options.union_trials >= 0 && options.union_trials <= 1e3, "union_trials", options.union_trials);
   require(is_fraction(options.speck_area_fraction), "speck_area_fraction", options.speck_area_fraction);
   require(is_fraction(options.small_area_fraction), "small_area_fraction", options.small_area_fraction);
@@ -62,6 +63,11 @@ struct ChartSegmenter::Surface {
   std::vector<float> openness;
 
   explicit Surface(const TriangleMesh& of) : mesh(of), openness(triangle_openness(mesh)) {}
+
+  SeamWeights weights(const SegmentationOptions& options) const {
+    if (!options.weigh_seams) return SeamWeights(mesh);
+    return {mesh, options.eye ? openness_to(mesh, *options.eye) : openness, options.feature_angle_deg};
+  }
 };
 
 ChartSegmenter::ChartSegmenter(const TriangleMesh& mesh) {
@@ -82,12 +88,12 @@ SegmentationResult ChartSegmenter::segment(const SegmentationOptions& options) c
   SegmentationResult result;
   if (!surface_) return result;
   const SegmentedMesh& surface = surface_->mesh;
-  const SeamWeights weights(surface, surface_->openness, options.feature_angle_deg);
+  const SeamWeights weights = surface_->weights(options);
   tell(0.2);
 
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> labels =
-      feature_patches(surface, feature_halfedges(surface, options.feature_angle_deg), count);
+  std::vector<std::uint32_t> labels = feature_patches(
+      surface, feature_halfedges(surface, options.feature_seams ? options.feature_angle_deg : 180), count);
   result.feature_patches = count;
   count = absorb_small(surface, options, labels);
   result.absorbed = result.feature_patches - count;
@@ -104,6 +110,17 @@ SegmentationResult ChartSegmenter::segment(const SegmentationOptions& options) c
   result.charts = charts_between(surface, seam);
   tell(1);
   return result;
+}
+
+std::vector<double> ChartSegmenter::seam_costs(const SegmentationOptions& options) const {
+  check_options(options);
+  if (!surface_) return {};
+  const SegmentedMesh& surface = surface_->mesh;
+  const SeamWeights weights = surface_->weights(options);
+  std::vector<double> costs(surface.opposite.size(), 0);
+  for (Index h = 0; h < costs.size(); ++h)
+    if (surface.opposite[h] != k_none) costs[h] = weights.cost(h);
+  return costs;
 }
 
 }  // namespace papilla

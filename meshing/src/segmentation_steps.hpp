@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -12,6 +13,11 @@
 #include "segmented_mesh.hpp"
 
 namespace papilla::detail {
+
+/// What seams are measured by in a chart of this area: its root, or with a common price that of the whole surface.
+inline double seam_unit(const SegmentedMesh& surface, const SegmentationOptions& options, double area) {
+  return std::sqrt(options.common_price ? surface.total_area : area);
+}
 
 struct PatchCuts {
   std::size_t opening = 0, relief = 0, halving = 0;  ///< How often each kind of cut was made.

@@ -18,6 +18,7 @@ SegmentedMesh::SegmentedMesh(const TriangleMesh& mesh)
     const Vec3 vector = 0.5 * detail::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
     area.push_back(norm(vector));
     normal.push_back(normalized(vector));
+    total_area += area.back();
   }
 }
 

@@ -17,6 +17,7 @@ struct SegmentedMesh {
   std::vector<Index> opposite;  ///< Per half-edge; k_none at borders.
   std::vector<Vec3> normal;     ///< Per triangle, of length one, or zero when it has no area.
   std::vector<double> area;
+  double total_area = 0;
 
   std::size_t size() const noexcept { return triangles.size(); }
   Vec3 area_vector(Index t) const noexcept { return area[t] * normal[t]; }

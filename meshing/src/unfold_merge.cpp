@@ -283,7 +283,7 @@ class Unfolder {
       if (a.triangles.size() + b.triangles.size() > budget_) return false;
       both = solved(s);
       const double added = both->area * both->distortion - a.area * a.distortion - b.area * b.distortion;
-      if (added > options_.seam_cost * s.cost * std::sqrt(both->area)) return false;
+      if (added > options_.seam_cost * s.cost * seam_unit(surface_, options_, both->area)) return false;
     }
     if (sprawls(s, *both) || overlaps_itself(both->place) || !grains_agree(s, *both)) return false;
     join(s, std::move(*both));

@@ -4,6 +4,7 @@ import uPlot from 'uplot';
 import { curve, number, tick } from './colour.mjs';
 import { element } from './dom.mjs';
 import { surfaceOf } from './force.mjs';
+import { drawLattice, drawPrimitive } from './lattice_picture.mjs';
 import { axis, legend, logSplits } from './plot_look.mjs';
 import { drawRelief } from './relief_picture.mjs';
 
@@ -26,45 +27,12 @@ export function structureFunction({ width, height, mm }, pitch) {
   return [lags.filter((_, i) => seen[i]), rms.filter((_, i) => seen[i])];
 }
 
-function tile(draw, caption) {
-  const canvas = element('canvas', { class: 'tile', width: 184, height: 184, role: 'img', 'aria-label': caption });
+/** @param size [width, height] whose shape it gets */
+function tile(draw, caption, size = [1, 1]) {
+  const scale = 184 / Math.max(...size), [width, height] = size.map((mm) => Math.max(1, Math.round(scale * mm)));
+  const canvas = element('canvas', { class: 'tile', width, height, role: 'img', 'aria-label': caption });
   draw(canvas);
   return element('figure', {}, canvas, element('figcaption', {}, caption));
-}
-
-function drawLattice(canvas, image, vectors, size) {
-  const context = canvas.getContext('2d');
-  context.drawImage(image, 0, 0, canvas.width, canvas.height);
-  if (!vectors) return;
-  const px = vectors.map(([x, y]) => [x / size[0] * canvas.width, y / size[1] * canvas.height]);
-  for (const [width, colour] of [[3, '#000'], [1.2, '#ffb000']]) {
-    context.lineWidth = width;
-    context.strokeStyle = colour;
-    context.beginPath();
-    for (let k = -60; k <= 60; ++k)
-      for (const [a, b] of [[px[0], px[1]], [px[1], px[0]]]) {
-        context.moveTo(k * a[0] - 60 * b[0], k * a[1] - 60 * b[1]);
-        context.lineTo(k * a[0] + 60 * b[0], k * a[1] + 60 * b[1]);
-      }
-    context.stroke();
-  }
-}
-
-/** The unit cell of the lattice, as large as fits. */
-function drawPrimitive(canvas, image, vectors, size) {
-  const context = canvas.getContext('2d');
-  const px = vectors.map(([x, y]) => [x / size[0] * image.width, y / size[1] * image.height]);
-  const corners = [[0, 0], px[0], [px[0][0] + px[1][0], px[0][1] + px[1][1]], px[1]];
-  const low = [0, 1].map((k) => Math.min(...corners.map((c) => c[k]))), high = [0, 1].map((k) => Math.max(...corners.map((c) => c[k])));
-  const scale = 0.96 * canvas.width / Math.max(high[0] - low[0], high[1] - low[1]);
-  context.translate(canvas.width / 2, canvas.height / 2);
-  context.scale(scale, scale);
-  context.translate(-(low[0] + high[0]) / 2, -(low[1] + high[1]) / 2);
-  context.beginPath();
-  corners.forEach((c) => context.lineTo(...c));
-  context.closePath();
-  context.clip();
-  for (const x of [-1, 0, 1]) for (const y of [-1, 0, 1]) context.drawImage(image, x * image.width, y * image.height);
 }
 
 const plots = [];
@@ -146,11 +114,11 @@ async function card({ felt, materials, about }, compared) {
   const size = material.relief ? surfaceOf(material).size : null;
   if (about?.photo) {
     const image = await imageOf(about.photo);
-    const vectors = about.lattice ? about.period_mm : null;
-    pictures.append(tile((c) => drawLattice(c, image, null, size), 'photo'));
-    if (vectors) pictures.append(tile((c) => drawLattice(c, image, vectors, size), 'lattice'), tile((c) => drawPrimitive(c, image, vectors, size), 'primitive'));
+    const vectors = about.lattice ? about.period_mm : null, shows = about.picture.shows_mm;  // The relief may be a tile of it.
+    pictures.append(tile((c) => drawLattice(c, image, null, shows), 'photo', shows));
+    if (vectors) pictures.append(tile((c) => drawLattice(c, image, vectors, shows), 'lattice', shows), tile((c) => drawPrimitive(c, image, vectors, shows), 'primitive'));
   }
-  if (material.relief) pictures.append(tile((c) => drawRelief(c, material.relief, size), 'relief'));
+  if (material.relief) pictures.append(tile((c) => drawRelief(c, material.relief, size), 'relief', size));
   node.append(pictures);
   if (felt) node.append(constants(material, about));
   if (material.relief) {

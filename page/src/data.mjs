@@ -48,9 +48,9 @@ function decodeMesh(mesh) {
   return out;
 }
 
-/** A height map with all of its 16 bits: heights in mm, row by row from the top. */
-export function decodeHeight(map, tag) {
-  const png = decodePng(bytesOf(map.png));
+/** A height map with all of its 16 bits: heights in mm, row by row from the top. @param bytes of a PNG */
+export function decodeHeight(bytes, tag) {
+  const png = decodePng(bytes);
   const full = 2 ** png.depth - 1, samples = png.data, channels = png.channels;
   const scale = tag.scale * 1000, offset = (tag.offset ?? 0) * 1000, black = tag.outward === 'black';
   const mm = new Float32Array(png.width * png.height);
@@ -77,7 +77,7 @@ export async function load() {
     material.index = index;
     if (material.height === null || !material.haptic) return;
     try {
-      material.relief = decodeHeight(scene.heights[material.height], material.haptic.height);
+      material.relief = decodeHeight(bytesOf(scene.heights[material.height].png), material.haptic.height);
     } catch (error) {
       material.warnings.push(`the page can't read the height map: ${error.message}`);
     }

@@ -11,6 +11,8 @@ const DOWN = 0.24, ASIDE = 0.5;
 /** Share of the directions in which a room has surface; before a wall it is half of them. */
 const LEAST_ENCLOSURE = 0.6;
 const NEAREST_MM = 300, FARTHEST_MM = 1500;
+/** Nobody sits in what is smaller, as in a box for a display. */
+const LEAST_ROOM_MM = 800;
 
 function boxesOf(meshes, names, wanted, not = /$^/) {
   const boxes = new Map();
@@ -135,5 +137,6 @@ function room(meshes, box) {
  * @returns {eye, look, ahead, kind}: a point, the way that it looks and that way along the floor; null for an object without a room
  */
 export function eyePoint(meshes, names, box) {
-  return driver(meshes, names, box) ?? room(meshes, box);
+  const { x, y, z } = box.getSize(new THREE.Vector3());
+  return driver(meshes, names, box) ?? (Math.max(x, y, z) < LEAST_ROOM_MM ? null : room(meshes, box));
 }

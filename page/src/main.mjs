@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { fillCards, repaintCards } from './cards.mjs';
 import { number } from './colour.mjs';
-import { Compare } from './compare.mjs';
+import { Compare, materialOn } from './compare.mjs';
 import { load } from './data.mjs';
 import { count, element } from './dom.mjs';
 import { fillIcons } from './icons.mjs';
@@ -33,6 +33,7 @@ class Page {
     this.scene = data.scene;
     this.view = VIEWS[0];
     this.ranges = new Map();
+    this.b = null;
   }
 
   start() {
@@ -148,12 +149,18 @@ class Page {
     this.view = view;
     $(`view-${view.id}`).checked = true;
     if (!this.ranges.has(view.id)) this.ranges.set(view.id, rangeOf(view, this.scene));
-    const range = this.ranges.get(view.id);
+    const { range } = this;
     this.three?.setView(view, range);
     this.compare?.view(view, range);
     this.uv?.setView(view, range);
     showLegend(view, range, checkerText(this.scene));
   }
+
+  get range() { return this.ranges.get(this.view.id); }
+
+  wear(on) { this.three.wear(on); }
+
+  say(text) { $('picked').textContent = text; }
 
   /** Parts that are nothing but coarser levels of detail. */
   coarserParts() {
@@ -170,14 +177,16 @@ class Page {
   /** Materials that B can be, each look once. */
   listMaterials() {
     const list = $('compare');
+    this.choices = this.scene.materials.map(({ name }, i) => ({ name: name || `material ${i}`, group: '' }));
     list.add(new Option('nothing', ''));
-    this.scene.materials.forEach((m, i) => list.add(new Option(m.name || `material ${i}`, i)));
+    this.choices.forEach(({ name }, i) => list.add(new Option(name, i)));
     list.addEventListener('change', () => this.compareWith(list.value === '' ? null : Number(list.value)));
   }
 
   /** @param index of the material that is B, or null */
   compareWith(index) {
-    this.compare?.show(this.selected, index);
+    this.b = index;
+    this.compare?.show(this.selected, index === null ? null : materialOn(this.three, this.scene, index));
     $('compare').value = index ?? '';
     $('compare-text').hidden = index === null;
     if (index !== null) $('compare-text').textContent = `One half of ${this.nameOf(this.selected)} is ${this.scene.materials[index].name}, its grain in its own size.`;
@@ -219,7 +228,7 @@ class Page {
     const names = [...new Set(part.meshes.map((m) => this.scene.materials[m.material]?.name ?? 'no material'))];
     let text = `${this.nameOf(use)}: ${count(part.triangles, 'triangle')}, ${names.slice(0, 3).join(', ')}`;
     if (hit) text += `; ${this.readout(hit)}`;
-    $('picked').textContent = text;
+    this.say(text);
   }
 
   /** Values at a spot, all views at once. */

@@ -3,14 +3,15 @@
 import * as THREE from 'three';
 import { download, element } from './dom.mjs';
 import { icon } from './icons.mjs';
+import { VERSION, parseReview } from './review_file.mjs';
 
 const $ = (id) => document.getElementById(id);
-const VERSION = 1, PIN = 0.045;
+const PIN = 0.045;
 
 const metres = (point) => point.toArray().map((c) => Number((c / 1000).toFixed(5)));
 
 /** A number in a drop, as a picture that always turns to the camera. */
-function pin(number) {
+export function pin(number) {
   const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 64 }), context = canvas.getContext('2d');
   context.fillStyle = '#d55e00';
   context.strokeStyle = '#fff';
@@ -34,12 +35,13 @@ function pin(number) {
   return sprite;
 }
 
-/** What is no note of this version is left out. @throws Error for what is no review at all */
-export function parseReview(text) {
-  const review = JSON.parse(text);
-  if (review?.papilla_review !== VERSION || !Array.isArray(review.notes)) throw new Error('this is no review.json of this version');
-  const isPoint = (v) => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
-  return review.notes.filter((note) => typeof note?.text === 'string' && isPoint(note.place_m) && isPoint(note.camera?.position_m) && isPoint(note.camera?.look));
+/** @param page {nameOf(use), scene, view} @param position mm, @param look a unit vector, @param where 'page' or 'headset' */
+export function noteOf(page, spot, text, position, look, where, picture) {
+  return {
+    text, part: page.nameOf(spot.use), material: page.scene.materials[spot.mesh.material]?.name ?? null, place_m: metres(spot.point),
+    view: page.view.id, camera: { position_m: metres(position), look: look.toArray().map((c) => Number(c.toFixed(4))) }, taken_in: where,
+    time: new Date().toISOString(), picture, id: crypto.randomUUID?.() ?? `${Date.now()}-${Math.random()}`,
+  };
 }
 
 export class Notes {
@@ -47,6 +49,9 @@ export class Notes {
   constructor(data, page) {
     Object.assign(this, { data, page, list: [], pins: new THREE.Group() });
     page.three?.scene.add(this.pins);
+    /** Where the page comes from a studio that keeps the notes. */
+    this.server = document.documentElement.dataset.review ? `${document.documentElement.dataset.review}${location.search}` : null;
+    if (this.server) this.ask(fetch(this.server));
     $('note-add').addEventListener('click', () => this.addAtPick());
     $('notes-save').addEventListener('click', () => this.save());
     $('notes-open').addEventListener('change', (e) => this.open(e.target));
@@ -62,6 +67,21 @@ export class Notes {
     }
     this.show();
   }
+
+  /** What the server keeps after a request. */
+  async ask(request) {
+    try {
+      const answer = await request, text = await answer.text();
+      if (!answer.ok) throw new Error(JSON.parse(text).error);
+      this.list = parseReview(text);
+      this.show();
+    } catch (error) {
+      this.say(`The notes were not kept: ${error.message}.`);
+    }
+  }
+
+  /** @param change {put: note} or {remove: id} */
+  keep(change) { if (this.server) this.ask(fetch(this.server, { method: 'POST', body: JSON.stringify(change) })); }
 
   async open(input) {
     if (input.files[0]) this.take(await input.files[0].text());
@@ -79,15 +99,12 @@ export class Notes {
     return undefined;
   }
 
-  /** @param position mm, @param look a unit vector, @param where 'page' or 'headset' */
-  add(spot, text, position, look, where, picture) {
-    const note = {
-      text, part: this.page.nameOf(spot.use), material: this.data.scene.materials[spot.mesh.material]?.name ?? null, place_m: metres(spot.point),
-      view: this.page.view.id, camera: { position_m: metres(position), look: look.toArray().map((c) => Number(c.toFixed(4))) }, taken_in: where,
-      time: new Date().toISOString(), picture,
-    };
+  /** As noteOf(). */
+  add(...seen) {
+    const note = noteOf(this.page, ...seen);
     this.list.push(note);
     this.show();
+    this.keep({ put: note });
     return note;
   }
 
@@ -109,10 +126,10 @@ export class Notes {
   item(note, i) {
     const text = element('textarea', { 'aria-label': `Note ${i + 1}, ${note.part}` });
     text.value = note.text;
-    text.addEventListener('change', () => { note.text = text.value; });
+    text.addEventListener('change', () => { note.text = text.value; this.keep({ put: note }); });
     const go = element('button', { type: 'button' }, icon('place'), ' Go there'), remove = element('button', { type: 'button', 'aria-label': `Remove note ${i + 1}` }, icon('remove'));
     go.addEventListener('click', () => this.page.visit(note));
-    remove.addEventListener('click', () => { this.list.splice(i, 1); this.show(); });
+    remove.addEventListener('click', () => { this.list.splice(i, 1); this.show(); this.keep({ remove: note.id }); });
     const picture = typeof note.picture === 'string' && note.picture.startsWith('data:image/') ? [element('img', { src: note.picture, alt: `Picture of note ${i + 1}` })] : [];
     return element('li', {}, element('b', {}, `${i + 1} ${note.part}`), ...picture, text, element('div', { class: 'row' }, go, remove));
   }

@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { uvMatrix } from './shading.mjs';
 
-const matrices = new Map();
+const matrices = new WeakMap();
 
 function heightMatrix(material) {
   if (!matrices.has(material)) matrices.set(material, uvMatrix(material.haptic.height.uvTransform));

@@ -4,27 +4,18 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { eyePoint } from './eye_point.mjs';
 import { frontOf } from './framing.mjs';
+import { levelDistance } from './level_distance.mjs';
 import { addStudio } from './light.mjs';
+import { Pace } from './pace.mjs';
 import { applyView, shadingOf, sideOf } from './shading.mjs';
+import { drawsInSoftware } from './software_drawing.mjs';
 import { Surface } from './surface.mjs';
 import { environmentTexture, pixelTexture, textureOf } from './textures.mjs';
 
-/** A full frame that takes longer makes moving unpleasant. */
-const SLOW_MS = 30, MOVING_MS = 60;
-const REST_MS = 250, LONGEST_REST_MS = 3000;
 /** Vertical angle of view, and its part where one sits inside: wider, as people look around. */
 const FOV = 40, SEATED_ZOOM = 0.76, NARROW = 1.1;
 /** From where an object without a room is looked at. */
 const OUTSIDE = new THREE.Vector3(0.7, 0.55, 0.9);
-
-/** Whether the browser draws without a graphics card: smoothing of edges then costs as much as all the rest. */
-export function drawsInSoftware() {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  if (!gl) return false;
-  const known = gl.getExtension('WEBGL_debug_renderer_info'), name = String(gl.getParameter(known ? known.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
-  gl.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
-}
 
 export function geometryOf(mesh) {
   const { positions, normals, uv, uv1, measured, indices, coarse } = mesh.data;
@@ -67,11 +58,10 @@ function standardMaterial(material) {
 export class SceneView {
   /** @param onPick called with a spot of Surface, or null, @param onHover likewise */
   constructor(canvas, scene, onPick, onHover) {
-    Object.assign(this, { canvas, data: scene, onPick, onHover, fullMs: 0, marks: [] });
+    Object.assign(this, { canvas, data: scene, onPick, onHover, marks: [] });
     this.inSoftware = drawsInSoftware();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.inSoftware });
-    this.ratio = Math.min(window.devicePixelRatio, 2);
-    this.renderer.setPixelRatio(this.ratio);
+    this.pace = new Pace(this.renderer, (coarse) => this.detail(coarse));
     this.renderer.toneMapping = THREE.NeutralToneMapping;  // keeps colours under white light, unlike curves of film
     this.world = new THREE.Scene();
     this.fov = FOV;
@@ -126,7 +116,7 @@ export class SceneView {
     this.scene.add(this.root);
     this.world.add(this.scene);
     this.scene.updateMatrixWorld(true);
-    this.surface = new Surface(this.meshes);
+    this.surface = new Surface(this.meshes, this.scene);
     this.box = new THREE.Box3().setFromObject(this.root);
     if (this.box.isEmpty()) this.box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
     this.size = this.box.getSize(new THREE.Vector3()).length();
@@ -136,12 +126,12 @@ export class SceneView {
   addLevels(coverages, groups) {
     if (!groups[0]) return;
     const { center, radius } = new THREE.Box3().setFromObject(groups[0]).getBoundingSphere(new THREE.Sphere());
-    const lod = new THREE.LOD(), distance = (coverage) => radius / (coverage * Math.tan(this.camera.fov * Math.PI / 360));
+    const lod = new THREE.LOD();
     lod.position.copy(center);
     for (let k = 0; k <= coverages.length; ++k) {
       const group = groups[k] ?? new THREE.Group();  // Below the last coverage there is nothing.
       group.position.copy(center).negate();
-      const from = k === 0 ? 0 : distance(coverages[k - 1]);
+      const from = k === 0 ? 0 : levelDistance(radius, coverages[k - 1], this.camera.fov);
       if (Number.isFinite(from)) lod.addLevel(group, from);
     }
     this.root.add(lod);
@@ -183,7 +173,7 @@ export class SceneView {
       standard.map = await textureOf(this.data, material.base_map, true);
       if (!material.unlit) {
         standard.normalMap = await textureOf(this.data, material.normal_map, false);
-        if (material.normal_map) standard.normalScale.setScalar(material.normal_map.factor);
+        if (material.normal_map) standard.normalScale.set(material.normal_map.factor, -material.normal_map.factor);  // Without tangents v runs the other way.
         standard.roughnessMap = standard.metalnessMap = await textureOf(this.data, material.shine_map, false);
       }
       standard.needsUpdate = true;
@@ -313,6 +303,14 @@ export class SceneView {
     return small.toDataURL('image/jpeg', 0.8);
   }
 
+  /** Before a headset draws the scene, and after it has. */
+  wear(on) {
+    this.outline.visible &&= !on;
+    if (on) return;
+    this.resize();
+    this.settle();
+  }
+
   settle() {
     this.camera.near = this.size / 2000;
     this.camera.far = this.size * 20;
@@ -422,24 +420,17 @@ export class SceneView {
     event.preventDefault();
   }
 
-  /** While the camera moves, a slow machine draws the coarse triangles in half the resolution, down to a quarter where a
-   * full frame takes a second; the longer that is, the longer it waits for the next move before it begins one. */
+  /** The camera: more will follow soon. */
   moved() {
-    if (this.slow) this.detail(true);
-    clearTimeout(this.rest);
-    this.rest = setTimeout(() => this.detail(false), Math.min(Math.max(REST_MS, this.fullMs / 2), LONGEST_REST_MS));
+    this.pace.changing();
     this.invalidate();
   }
 
   detail(coarse) {
-    if (this.coarse === coarse) return;
-    this.coarse = coarse;
     for (const part of this.data.parts)
       for (const { geometry, data } of part.meshes)
         if (coarse) geometry.setDrawRange(data.indices.length, data.coarse.length);
         else geometry.setDrawRange(0, data.indices.length);
-    const divisor = Math.min(Math.max(Math.sqrt(this.fullMs / MOVING_MS), 2), 4);
-    this.renderer.setPixelRatio(coarse ? this.ratio / divisor : this.ratio);
     this.resize();
     this.invalidate();
   }
@@ -460,23 +451,20 @@ export class SceneView {
   }
 
   draw() {
-    const start = performance.now();
     if (this.renderer.xr.isPresenting) return;
+    this.pace.draw(() => this.paint());
+  }
+
+  paint() {
     this.marker.scale.setScalar(0.006 * this.marker.position.distanceTo(this.camera.position) / this.camera.zoom);
     this.beforeDraw?.();
     for (const mark of this.marks) mark.fit();  // of the same size on the screen wherever the camera is
     this.renderer.render(this.world, this.camera);
-    this.frames = (this.frames ?? 0) + 1;
-    this.canvas.dataset.frames = this.frames;
     Object.assign(this.canvas.dataset, {
+      frames: Number(this.canvas.dataset.frames ?? 0) + 1,
       triangles: this.renderer.info.render.triangles, seat: this.seat?.kind ?? 'none', seated: this.seated,
       camera: this.camera.position.toArray().map((c) => c.toFixed(1)), look: this.camera.getWorldDirection(new THREE.Vector3()).toArray().map((c) => c.toFixed(3)),
     });
     this.onDrawn?.();
-    if (this.frames < 3 || this.coarse) return;
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until the frame is there
-    this.fullMs = performance.now() - start;
-    this.slow = this.fullMs > SLOW_MS;
   }
 }

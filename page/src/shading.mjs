@@ -13,7 +13,7 @@ const noHeight = new THREE.DataTexture(new Float32Array(1), 1, 1, THREE.RedForma
 noHeight.needsUpdate = true;
 
 const WRAP = { repeat: THREE.RepeatWrapping, clamp: THREE.ClampToEdgeWrapping, mirror: THREE.MirroredRepeatWrapping };
-const heightTextures = new Map();
+const heightTextures = new WeakMap();
 
 function heightTexture(material) {
   const { relief, haptic } = material;

@@ -27,9 +27,14 @@ export class Sound {
     if (time - this.last > MOST_SECONDS) this.lift();
     this.last = time;
     const samples = this.vibration.move(surface, at, time, depth);
-    if (!samples.length) return;
-    const rate = this.context.sampleRate, buffer = this.context.createBuffer(1, samples.length, rate);
-    buffer.copyToChannel(samples.map((a) => roundedOff(a / FULL_SCALE)), 0);
+    if (samples.length) this.queue(samples.map((a) => roundedOff(a / FULL_SCALE)), this.context.sampleRate);
+  }
+
+  /** Plays samples in [-1, 1] after those before them. */
+  queue(samples, rate) {
+    if (!this.on) return;
+    const buffer = this.context.createBuffer(1, samples.length, rate);
+    buffer.copyToChannel(samples, 0);
     const source = this.context.createBufferSource();
     source.buffer = buffer;
     source.connect(this.context.destination);

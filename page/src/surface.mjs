@@ -4,7 +4,7 @@
 import * as THREE from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
 
-const trees = new Map();
+const trees = new WeakMap();
 
 /** Of the triangles at rest; made when it is first needed. */
 function treeOf(mesh) {
@@ -21,11 +21,12 @@ function treeOf(mesh) {
 const cornersOf = ({ data }, face, column = data.positions) => [0, 1, 2].map((k) => new THREE.Vector3().fromArray(column, 3 * data.indices[3 * face + k]));
 
 export class Surface {
-  /** @param objects meshes with {use, mesh} as userData, in place */
-  constructor(objects) {
+  /** @param objects meshes with {use, mesh} as userData, in place, @param scene a group that they are in, whose frame counts */
+  constructor(objects, scene) {
+    const fromWorld = scene.matrixWorld.clone().invert();
     this.places = objects.map((object) => {
-      const toScene = object.matrixWorld.clone();
-      object.geometry.computeBoundingBox();
+      const toScene = fromWorld.clone().multiply(object.matrixWorld);
+      if (!object.geometry.boundingBox) object.geometry.computeBoundingBox();
       return { object, toScene, toLocal: toScene.clone().invert(), scale: Math.cbrt(Math.abs(toScene.determinant())), mirrored: toScene.determinant() < 0, box: object.geometry.boundingBox };
     });
   }

@@ -30,7 +30,8 @@ export async function textureOf(scene, reference, isColour) {
   return placed(new THREE.Texture(bitmap), reference, isColour);
 }
 
-function placed(texture, reference, isColour) {
+/** Lays a texture where a reference has it. */
+export function placed(texture, reference, isColour) {
   texture.flipY = false;
   texture.colorSpace = isColour ? THREE.SRGBColorSpace : THREE.NoColorSpace;
   [texture.wrapS, texture.wrapT] = reference.wrap.map((w) => GL_WRAP[w] ?? THREE.RepeatWrapping);

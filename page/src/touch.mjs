@@ -128,8 +128,8 @@ export class Touch {
   move(x, y) { this.slide([x * this.surface.size[0], y * this.surface.size[1]]); }
 
   /** The probe presses on a spot of the scene, or leaves it. */
-  probe(spot) {
-    const { material, ratio } = spot ? this.compare?.at(spot) ?? { material: this.scene.materials[spot.mesh.material] } : {};
+  probe(found) {
+    const { spot, material, ratio } = found ? this.compare?.at(found) ?? { spot: found, material: this.scene.materials[found.mesh.material] } : {};
     if (!material?.relief) {
       this.lift();
       this.marks?.hide();

@@ -89,7 +89,7 @@ std::vector<GltfSurfaceEdit> surface_edits(const BakeResult& result, const Mater
       if (grain->picture) edit.picture = &*grain->picture;
       if (grain->shine) edit.shine = &*grain->shine;
       edit.picture_roughness = grain->roughness_factor, edit.picture_metallic = grain->metallic_factor;
-      if (kept_mm_per_unit > 0) edit.transform = transform_to_repeats(*grain, kept_mm_per_unit);
+      if (kept_mm_per_unit > 0) edit.transform = transform_to_repeats(rule, *grain, kept_mm_per_unit);
       edit.uv = baked->uv;
     }
     edits.push_back(std::move(edit));

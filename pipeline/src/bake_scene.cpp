@@ -115,7 +115,7 @@ class SceneMaterials {
 
     const Grain* relief = grain ? &result_.grains.at(rule.name) : nullptr;
     if (relief != nullptr && kept_mm_per_unit > 0)
-      attach_to_kept_uv(material, *relief, kept_mm_per_unit);
+      attach_to_kept_uv(material, rule, *relief, kept_mm_per_unit);
     else if (relief != nullptr)
       attach_to_new_uv(material, *relief);
     material.haptic.reset();
@@ -158,10 +158,10 @@ class SceneMaterials {
   }
 
   /// Kept uv: a texture transform brings them to repeats of the grain.
-  void attach_to_kept_uv(Material& material, const Grain& grain, double mm_per_unit) {
+  void attach_to_kept_uv(Material& material, const MaterialRule& rule, const Grain& grain, double mm_per_unit) {
     if (material.normal_texture)
       scene_.losses.push_back("material '" + material.name + "': its normal map is replaced by that of the grain");
-    attach_pictures(material, grain, transform_to_repeats(grain, mm_per_unit));
+    attach_pictures(material, grain, transform_to_repeats(rule, grain, mm_per_unit));
   }
 
   void attach_pictures(Material& material, const Grain& grain, std::optional<UvTransform> transform) {

@@ -40,14 +40,11 @@ namespace papilla {
 template <>
 inline constexpr std::size_t k_field_count<MapRule> = 3;
 template <>
-inline constexpr std::size_t k_field_count<MaterialRule> = 25;
+inline constexpr std::size_t k_field_count<MaterialRule> = 26;
 template <>
-inline constexpr std::size_t k_field_count<Grain> = 25;
+inline constexpr std::size_t k_field_count<Grain> = 26;
 
 namespace {
-
-/// Peak to valley of a relief of which nothing is said, as a share of the shorter side of the grain.
-constexpr double k_default_depth = 0.01;
 
 /// For read_texture() and the dimension of the relief, on one slow core.
 constexpr double k_seconds_to_read_a_pixel = 8e-6;
@@ -127,8 +124,7 @@ PictureReliefOptions relief_options(const MaterialRule& rule, const SourcePictur
   PictureReliefOptions options = rule.height.relief;
   options.height.transfer = source.transfer;
   options.height.pitch_mm = grain.size_mm[0] / source.grey.width;
-  options.height.depth_mm =
-      rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+  options.height.depth_mm = depth_mm_of(rule, grain.size_mm);
   options.seen = grain.picture.has_value();
   return options;
 }
@@ -235,10 +231,6 @@ void require_picture(const MaterialRule& rule, const SourcePicture& source) {
   if (source.computed)
     throw InvalidInput("material '" + rule.name +
                        "', height.images: the texture is a recipe, which has its own height");
-}
-
-double depth_of(const MaterialRule& rule, const Grain& grain) {
-  return rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
 }
 
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.
@@ -358,8 +350,7 @@ void finish_relief(const MaterialRule& rule, bool dimension, const std::string& 
 void look_at(const MaterialRule& rule, const SourcePicture& source, Grain& grain) {
   grain.tiles = measure_tiling(source.grey).tiles;
   grain.monochrome = is_monochrome(source.color);
-  if (rule.show == "picture" || (rule.show == "auto" && !grain.monochrome))
-    grain.picture = png("grain." + rule.name, encode_png(source.color));
+  if (shows_picture(rule, grain.monochrome)) grain.picture = png("grain." + rule.name, encode_png(source.color));
 }
 
 /// Roughness and metallic of a recipe go with its picture. A test grain has neither channel, and no friction.
@@ -386,7 +377,9 @@ void describe_picture(const TextureReading& reading, Vec2 mm_per_px, Grain& grai
 }
 
 /// make_grain() without looking into a cache.
-Grain make_whole_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline) {
+/// @param describes  class, lattice and dimension are looked for also where the relief does not need them.
+Grain make_whole_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline,
+                       bool describes) {
   Grain grain;
   const Stopwatch analyze_clock;
   SourcePicture source = read_source(rule, library);
@@ -399,12 +392,13 @@ Grain make_whole_grain(const MaterialRule& rule, const RecipeLibrary& library, c
   }
   if (!several || !measures_pitch(rule)) find_size(rule, source.grey, grain.size_mm);
   const double size_mm[2] = {grain.size_mm[0], grain.size_mm[1]};
+  grain.photograph_mm = {size_mm[0], size_mm[1]};
   QuantityMaps maps = read_maps(rule, std::move(source.maps), library);
   look_at(rule, source, grain);
   ReadingOptions in_time;
   in_time.roughness = !several && !source.computed;  // Only the relief of a picture is made by it.
   in_time.deadline = deadline.earlier_by(k_seconds_to_read_a_pixel * static_cast<double>(source.grey.pixels.size()));
-  const TextureReading reading = read_texture(source.grey, in_time);
+  const TextureReading reading = describes || !source.computed ? read_texture(source.grey, in_time) : TextureReading{};
   if (reading.stop == StopReason::time_limit)
     grain.warnings.push_back(fmt::format(
         "material '{}': no lattice and no roughness was looked for: the time limit left no time for it", rule.name));
@@ -421,11 +415,11 @@ Grain make_whole_grain(const MaterialRule& rule, const RecipeLibrary& library, c
 
   const Stopwatch height_clock;
   grain.relief = several           ? several_relief(rule, std::move(*several), grain)
-                 : source.computed ? computed_relief(rule, source, depth_of(rule, grain), grain)
+                 : source.computed ? computed_relief(rule, source, depth_mm_of(rule, grain.size_mm), grain)
                                    : make_relief(rule, source, reading, grain);
   add_fine_roughness(rule, grain);
   add_maps(rule, std::move(maps), size_mm, grain);
-  finish_relief(rule, reading.stop != StopReason::time_limit, rule.name, grain);
+  finish_relief(rule, reading.stop != StopReason::time_limit && (describes || !source.computed), rule.name, grain);
   grain.height_seconds += height_clock.seconds() - grain.normal_map_seconds;
   return grain;
 }
@@ -460,7 +454,8 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
 }
 
 Digest grain_key(const MaterialRule& rule, const RecipeLibrary& library) {
-  MaterialRule seen = rule;  // How its uv are made is no matter of a grain.
+  MaterialRule seen = rule;  // How it lies on uv is no matter of a grain.
+  seen.phase_mm = {0, 0};
   seen.unwrap = "auto";
   seen.unwrap_options.reset();
   return key_of("grain", seen, picture_digests(seen, library), library.recipes(), library.colours());
@@ -472,11 +467,18 @@ std::optional<Grain> find_grain(const MaterialRule& rule, const RecipeLibrary& l
 
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline,
                  const StageCache* cache) {
-  const auto make = [&] { return make_whole_grain(rule, library, deadline); };
+  const auto make = [&] { return make_whole_grain(rule, library, deadline, true); };
   if (cache == nullptr) return make();
   auto [grain, found] = remembered_by(grain_key(rule, library), *cache, "grain", use_until(deadline), make);
   if (found) grain.analyze_seconds = grain.height_seconds = grain.normal_map_seconds = 0;
   return std::move(grain);
+}
+
+Grain make_shown_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline,
+                       const StageCache* cache) {
+  if (cache != nullptr)
+    if (std::optional<Grain> known = find_grain(rule, library, *cache)) return *std::move(known);
+  return make_whole_grain(rule, library, deadline, false);
 }
 
 Grain solid_grain(const MaterialRule& rule, const Grain& tile, PaintedSurface painted, const std::string& name) {
@@ -493,13 +495,14 @@ Grain solid_grain(const MaterialRule& rule, const Grain& tile, PaintedSurface pa
   std::erase_if(maps.maps, [&](const QuantityMap& map) { return rule.maps.contains(map.quantity); });
   grain.tag.static_friction = grain.tag.dynamic_friction = *source.friction;
   grain.stiffness_factor = source.stiffness, grain.damping_factor = source.damping;
-  grain.relief = computed_relief(rule, source, depth_of(rule, tile), grain);
+  grain.relief = computed_relief(rule, source, depth_mm_of(rule, tile.size_mm), grain);
   grain.relief.periodic = periodic;
   if (grain.picture) grain.picture = png("grain." + name, encode_png(source.color));
   grain.shine.reset();
   take_shine(source, name, grain);
   grain.photograph = std::move(source.color);
   const double size_mm[2] = {grain.size_mm[0], grain.size_mm[1]};
+  grain.photograph_mm = {size_mm[0], size_mm[1]};
   add_maps(rule, std::move(maps), size_mm, grain);
   finish_relief(rule, false, name, grain);
   return grain;
@@ -517,8 +520,10 @@ void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffnes
   if (rule.backing) tag.backing = *rule.backing;
 }
 
-UvTransform transform_to_repeats(const Grain& grain, double mm_per_unit) {
+UvTransform transform_to_repeats(const MaterialRule& rule, const Grain& grain, double mm_per_unit) {
   UvTransform transform;
+  // What moves along v, which runs down here, comes from farther down.
+  transform.offset = {-rule.phase_mm.x / grain.size_mm[0], rule.phase_mm.y / grain.size_mm[1]};
   transform.scale = {mm_per_unit / grain.size_mm[0], mm_per_unit / grain.size_mm[1]};
   return transform;
 }
@@ -527,10 +532,11 @@ MaterialTag surface_tag(const MaterialRule& rule, const Grain* grain, double kep
   MaterialTag tag = grain != nullptr ? grain->tag : MaterialTag();
   if (grain != nullptr && kept_mm_per_unit > 0) {
     const double metres = kept_mm_per_unit * k_metres_per_mm;
-    const Vec2 repeats = transform_to_repeats(*grain, kept_mm_per_unit).scale;
+    const UvTransform repeats = transform_to_repeats(rule, *grain, kept_mm_per_unit);
     for (PlacedPicture* picture : pictures_of(tag)) {
-      Vec2& scale = picture->uv_transform.scale;
-      scale = {scale.x * repeats.x, scale.y * repeats.y};
+      auto& [offset, rotation, scale] = picture->uv_transform;
+      offset = {offset.x + scale.x * repeats.offset.x, offset.y + scale.y * repeats.offset.y};
+      scale = {scale.x * repeats.scale.x, scale.y * repeats.scale.y};
     }
     tag.height->metres_per_uv = {metres, metres};
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,18 @@ SourcePicture read_source(const MaterialRule& rule, const RecipeLibrary& library
 
 /// What a recipe gave on a surface, as the picture of a material.
 SourcePicture painted_source(const MaterialRule& rule, PaintedSurface painted);
+
+/// From the deepest to the highest point of a grain, or a recipe's height of 1: the rule's, else 1 % of the shorter
+/// side.
+inline double depth_mm_of(const MaterialRule& rule, const double (&size_mm)[2]) {
+  constexpr double k_share = 0.01;
+  return rule.height.depth_mm.value_or(k_share * std::min(size_mm[0], size_mm[1]));
+}
+
+/// Whether a picture is to be the base colour. @param monochrome  of the picture, is_monochrome().
+inline bool shows_picture(const MaterialRule& rule, bool monochrome) {
+  return rule.show == "picture" || (rule.show == "auto" && !monochrome);
+}
 
 /// Where a map stands in a rule, for messages: "maps/friction".
 std::string key_of_map(Quantity quantity);

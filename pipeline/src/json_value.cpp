@@ -10,7 +10,6 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/plain_number.hpp"
 #include "papilla/core/read_file.hpp"
-#include "parse_json.hpp"
 
 namespace papilla {
 namespace {

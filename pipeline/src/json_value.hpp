@@ -51,6 +51,9 @@ class JsonValue {
 /// @throws IoError, InvalidInput naming the file and the byte that is no JSON.
 JsonValue::Json read_json(const std::filesystem::path& path);
 
+/// The same of a text. @param name stands for the file in messages. @throws InvalidInput as read_json().
+JsonValue::Json parse_json(const std::string& text, const std::string& name);
+
 /// Checks the keys of an object that selects surfaces and has `own` keys beside, and reads what it selects.
 SurfaceSelector read_selector(const JsonValue& value, const std::vector<std::string_view>& own);
 

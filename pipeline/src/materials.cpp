@@ -16,7 +16,6 @@
 #include "papilla/pipeline/library_material.hpp"
 #include "papilla/pipeline/material_library.hpp"
 #include "papilla/pipeline/studio/parse_materials.hpp"
-#include "parse_json.hpp"
 #include "unwrap_value.hpp"
 
 namespace papilla {
@@ -217,12 +216,12 @@ MaterialRule library_rule(const JsonValue& value, const std::string& name, const
 
 MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& source,
                            const std::filesystem::path& library) {
-  value.expect_keys({"material",         "texture",       "time",           "size_mm",
-                     "stiffness",        "damping",       "staticFriction", "dynamicFriction",
-                     "stribeckVelocity", "frictionModel", "forceModel",     "forceShading",
-                     "height",           "maps",          "backing",        "fineRoughness",
-                     "unwrap",           "show",          "color",          "roughness",
-                     "metallic",         "environment",   "$comment"});
+  value.expect_keys({"material",        "texture",          "time",          "size_mm",
+                     "phase_mm",        "stiffness",        "damping",       "staticFriction",
+                     "dynamicFriction", "stribeckVelocity", "frictionModel", "forceModel",
+                     "forceShading",    "height",           "maps",          "backing",
+                     "fineRoughness",   "unwrap",           "show",          "color",
+                     "roughness",       "metallic",         "environment",   "$comment"});
   MaterialRule rule;
   if (const auto v = value.get("material")) rule = library_rule(*v, name, library);
   rule.name = name;
@@ -234,6 +233,10 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
     rule.recipe = texture;
   }
   if (const auto v = value.get("time")) rule.time = v->number(0, 1);
+  if (const auto v = value.get("phase_mm")) {
+    if (!v->json().is_array() || v->json().size() != 2) v->fail("must be [u, v]");
+    rule.phase_mm = {v->at(0).number(-1e5, 1e5), v->at(1).number(-1e5, 1e5)};
+  }
   if (const auto v = value.get("size_mm")) {
     if (!v->json().is_array() || v->json().size() != 2) v->fail("must be [width, height]");
     for (std::size_t k = 0; k < 2; ++k) rule.size_mm[k] = v->at(k).number(1e-3, 1e5);

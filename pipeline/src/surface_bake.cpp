@@ -20,11 +20,11 @@
 namespace papilla {
 namespace {
 
-/// uv in millimetres -> repeats of the grain. Whole repeats are taken off chart by chart, so that float coordinates
-/// keep their precision.
-CornerAttribute<Vec2> repeats_of(const Flattening& flattening, const std::array<double, 2>& size_mm) {
+/// uv in millimetres -> repeats of the grain, moved by its phase. Whole repeats are taken off chart by chart, so that
+/// float coordinates keep their precision.
+CornerAttribute<Vec2> repeats_of(const Flattening& flattening, const std::array<double, 2>& size_mm, Vec2 phase_mm) {
   CornerAttribute<Vec2> uv = flattening.uv;
-  for (Vec2& value : uv.values) value = {value.x / size_mm[0], value.y / size_mm[1]};
+  for (Vec2& value : uv.values) value = {(value.x - phase_mm.x) / size_mm[0], (value.y - phase_mm.y) / size_mm[1]};
   std::vector<Bounds2> bounds(flattening.charts.count);
   std::vector<std::uint32_t> chart_of_value(uv.values.size(), 0);
   for (std::size_t t = 0; t < uv.indices.size(); ++t) {
@@ -103,7 +103,7 @@ void unwrap_surface(SurfaceInput& input, SurfaceOutput& output) {
   report.seams = part.seams;
   for (const ChartNote& note : part.flattening.notes) report.notes.push_back(note.reason);
   output.mesh = std::move(input.mesh);
-  output.mesh.uv = repeats_of(part.flattening, input.size_mm);
+  output.mesh.uv = repeats_of(part.flattening, input.size_mm, input.phase_mm);
   report.mesh = output.mesh;
   report.mesh.uv = std::move(part.flattening.uv);
   round_as_written(report.mesh, output.mesh.uv, input.size_mm);
@@ -142,6 +142,7 @@ SurfaceInput surface_input(const PartSurface& surface, const MaterialRule& rule,
   input.uv_mm_per_unit = surface.uv_mm_per_unit;
   input.uv_note = surface.uv_note;
   input.size_mm = {grain.size_mm[0], grain.size_mm[1]};
+  input.phase_mm = rule.phase_mm;
   context.part = surface.label;
   context.tile_mm = options.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
   if (rule.unwrap_options) {

@@ -22,6 +22,7 @@ struct SurfaceInput {
   double uv_mm_per_unit = 0;            ///< Of its own uv.
   std::string uv_note;                  ///< What was found about its own uv.
   std::array<double, 2> size_mm{0, 0};  ///< Of its grain.
+  Vec2 phase_mm{0, 0};                  ///< MaterialRule::phase_mm.
   PartContext context;
   UnwrapOptions options;
 };

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "papilla/cache/stage_cache.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
@@ -23,6 +24,9 @@ namespace papilla {
 namespace {
 
 constexpr double k_share_of_charts = 0.5;  ///< Of the time for a part, for progress.
+
+/// Of maps under a bound, unless another is given: what an iteration still gains there is seam that is not needed.
+constexpr double k_bound_tolerance = 1e-4;
 
 /// Triangles of a part up to which two seam costs are tried: twice the time is no matter there.
 std::size_t most_charted_twice(UnwrapEffort effort) {
@@ -138,13 +142,15 @@ struct PartMemory {
   ChartMemory maps;
 };
 
+/// Of charts that may be cut.
+constexpr int k_most_halvings = 6;
+
 /// Halves charts that have no valid map, or none worth having, a few times; the last map stays whatever it is.
-Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions options, PartMemory& memory,
-                        std::vector<ChartChoice>& choices) {
-  const int most_halvings = options.charts == ChartSource::automatic ? 6 : 0;
+Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions options, int most_halvings,
+                        PartMemory& memory, std::vector<ChartChoice>& choices) {
   for (ChartMemory** of_method : {&options.maillot.memory, &options.levy.memory, &options.lscm.memory,
                                   &options.reference.memory, &options.best.memory, &options.automatic.best.memory})
-    *of_method = most_halvings > 0 ? &memory.maps : nullptr;
+    *of_method = options.charts == ChartSource::automatic ? &memory.maps : nullptr;
   for (int i = 0;; ++i) {
     Flattening flattening = map_charts(cut_open(mesh, charts), charts, options, choices);
     if (flattening.notes.empty() || i == most_halvings || options.deadline.passed()) {
@@ -177,7 +183,43 @@ Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const
                               .value;
   part.segment_seconds += clock.seconds();
   part.choices.clear();
-  return map_or_halve(mesh, charts, o, memory, part.choices);
+  return map_or_halve(mesh, charts, o, k_most_halvings, memory, part.choices);
+}
+
+/// As keep_bound() does.
+Flattening chart_within_bound(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                              PartMemory& memory, FlattenedPart& part) {
+  MethodOptions own = o;
+  own.progress = own.best.progress = own.automatic.best.progress = {};
+  own.segmentation.common_price = true;
+  for (BestOptions* best : {&own.best, &own.automatic.best}) {
+    best->energy_limit = std::numeric_limits<double>::infinity();
+    if (!o.tolerance) best->tolerance = std::min(best->tolerance, k_bound_tolerance);
+  }
+  const auto charted = [&](Flattening flattening) {
+    return ChartedMap{std::move(flattening), std::move(part.choices)};
+  };
+  SeamTools tools;
+  tools.chart = [&](double seam_cost, bool feature_seams) {
+    own.segmentation.feature_seams = feature_seams;
+    own.segmentation.seam_cost = seam_cost;
+    return charted(chart_and_map(mesh, own, context, memory, part));
+  };
+  tools.map = [&](const ChartSet& charts) {
+    part.choices.clear();
+    return charted(map_or_halve(mesh, charts, own, 0, memory, part.choices));
+  };
+  tools.halve = [&](const ChartSet& charts, std::span<const std::uint32_t> numbers) {
+    if (!memory.halver) memory.halver.emplace(mesh);
+    return memory.halver->halve(charts, numbers);
+  };
+  if (!memory.segmenter) memory.segmenter.emplace(mesh);
+  tools.seam_costs = memory.segmenter->seam_costs(own.segmentation);
+  BoundedSeams result = keep_bound(mesh, *o.max_distortion, tools, o.deadline, o.progress);
+  part.bound = BoundReport{*o.max_distortion, result.kept,         result.distortion,
+                           result.seam_mm,    result.seam_cost_mm, std::move(result.trace)};
+  part.choices = std::move(result.charted.choices);
+  return std::move(result.charted.flattening);
 }
 
 /// As choose_seam_cost() does.
@@ -212,7 +254,8 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
   }
   PartMemory memory;
   if (o.charts != ChartSource::automatic)
-    return map_or_halve(mesh, given_charts(mesh, o.charts), o, memory, part.choices);
+    return map_or_halve(mesh, given_charts(mesh, o.charts), o, 0, memory, part.choices);
+  if (o.max_distortion) return chart_within_bound(mesh, o, context, memory, part);
   if (o.choose_seam_cost && mesh.triangles.size() <= most_charted_twice(o.effort))
     return chart_twice(mesh, o, context, memory, part);
   return chart_and_map(mesh, o, context, memory, part);
@@ -281,6 +324,10 @@ FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& given, c
   if (!(context.extent_mm > 0)) context.extent_mm = bounds_of(mesh).diagonal();
   MethodOptions o = prepare(mesh, options, context);
   FlattenedPart part;
+  if (o.max_distortion && o.charts != ChartSource::automatic)
+    throw InvalidInput("max_distortion: it finds charts, which are given");
+  if (const std::string reason = foreign_option("max_distortion", o.method); o.max_distortion && !reason.empty())
+    throw InvalidInput("max_distortion: it " + reason);
   if (o.method == UnwrapMethod::automatic && o.charts == ChartSource::automatic) {
     part.reason = reason_to_project(context);
     if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;

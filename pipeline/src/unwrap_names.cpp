@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
+#include <limits>
+#include <string_view>
 
 #include "papilla/pipeline/unwrap_method.hpp"
 
@@ -114,6 +119,32 @@ const std::map<std::string, EnvironmentMap>& environment_maps() {
   return names;
 }
 
+std::optional<DistortionBound> distortion_bound(const std::string& text) {
+  const auto number = [](std::string_view digits) {
+    double value = 0;
+    const char* end = digits.data() + digits.size();
+    const auto [rest, error] = std::from_chars(digits.data(), end, value);
+    return error == std::errc() && rest == end ? value : std::numeric_limits<double>::quiet_NaN();
+  };
+  constexpr double k_most = 1e6;
+  DistortionBound bound;
+  const std::string_view all = text;
+  const std::size_t equals = all.find('=');
+  if (equals != std::string_view::npos) {
+    if (!all.starts_with('p')) return std::nullopt;
+    bound.percentile = number(all.substr(1, equals - 1));
+    if (!(*bound.percentile > 0 && *bound.percentile <= 100)) return std::nullopt;
+  }
+  bound.most = number(equals == std::string_view::npos ? all : all.substr(equals + 1));
+  if (!(bound.most >= 4 && bound.most <= k_most)) return std::nullopt;
+  return bound;
+}
+
+std::string distortion_bound_name(const DistortionBound& bound) {
+  if (!bound.percentile) return fmt::format("{:g}", bound.most);
+  return fmt::format("p{:g}={:g}", *bound.percentile, bound.most);
+}
+
 bool choose_solver(const std::string& name, MethodOptions& options) {
   const auto pick = [&](const auto& choices, auto& value) {
     const auto found = choices.find(name);
@@ -134,25 +165,27 @@ const std::vector<UnwrapMethod>& methods_of_option(const std::string& option) {
                                              Method::arap};
   static const std::vector<Method> maillot{Method::maillot}, levy{Method::levy}, planar{Method::planar},
       intermediate{Method::intermediate}, environment{Method::environment}, none;
-  static const std::map<std::string, std::vector<Method>> of{{"iterations", iterating},
-                                                             {"tolerance", iterating},
-                                                             {"phi", maillot},
-                                                             {"allow_flips", maillot},
-                                                             {"start", maillot},
-                                                             {"distortion_limit", maillot},
-                                                             {"weights", levy},
-                                                             {"border", levy},
-                                                             {"coupling", levy},
-                                                             {"smoothness", levy},
-                                                             {"orthogonality", levy},
-                                                             {"length", levy},
-                                                             {"pin", levy},
-                                                             {"iso_line", levy},
-                                                             {"shape", intermediate},
-                                                             {"rule", intermediate},
-                                                             {"direction", planar},
-                                                             {"environment_map", environment},
-                                                             {"eye", {Method::environment, Method::intermediate}}};
+  static const std::map<std::string, std::vector<Method>> of{
+      {"iterations", iterating},
+      {"tolerance", iterating},
+      {"phi", maillot},
+      {"allow_flips", maillot},
+      {"start", maillot},
+      {"distortion_limit", maillot},
+      {"weights", levy},
+      {"border", levy},
+      {"coupling", levy},
+      {"smoothness", levy},
+      {"orthogonality", levy},
+      {"length", levy},
+      {"pin", levy},
+      {"iso_line", levy},
+      {"shape", intermediate},
+      {"rule", intermediate},
+      {"direction", planar},
+      {"max_distortion", {Method::automatic, Method::best}},
+      {"environment_map", environment},
+      {"eye", {Method::automatic, Method::best, Method::environment, Method::intermediate}}};
   const auto found = of.find(option);
   return found == of.end() ? none : found->second;
 }

@@ -138,7 +138,7 @@ void read_options(const JsonValue& value, MethodOptions& o) {
       of.get("coupling")->fail("can't be conformal: " + obstacle);
   of.choice("shape", o.intermediate.shape, intermediate_shapes());
   of.choice("rule", o.intermediate.rule, intermediate_rules());
-  if (const auto v = of.get("eye")) o.intermediate.eye = read_place(*v);
+  if (const auto v = of.get("eye")) o.intermediate.eye = o.segmentation.eye = read_place(*v);
   if (const auto v = of.get("direction")) o.planar.direction = read_direction(*v);
   if (const auto v = of.get("charts")) {
     o.charts = chart_sources().at(v->one_of({"auto", "keep", "uv"}));
@@ -146,6 +146,12 @@ void read_options(const JsonValue& value, MethodOptions& o) {
       v->fail(unwrap_method_name(o.method) + " makes its own charts");
   }
   if (const auto v = value.get("feature_angle")) o.segmentation.feature_angle_deg = v->number(1, 180);
+  if (const auto v = of.get("max_distortion")) {
+    if (value.get("seam_cost")) v->fail("finds the seam cost: give one of the two");
+    if (o.charts != ChartSource::automatic) v->fail("finds charts, which are given by 'charts'");
+    o.max_distortion = v->json().is_string() ? distortion_bound(v->text()) : DistortionBound{v->number(4, 1e6)};
+    if (!o.max_distortion) v->fail("must be a number from 4 on, or \"pNN=D\"");
+  }
   if (const auto v = value.get("seam_cost")) {
     o.segmentation.seam_cost = v->number(0, 1e6);
     o.choose_seam_cost = false;
@@ -176,11 +182,15 @@ void read_unwrap(const JsonValue& value, MaterialRule& rule) {
     rule.unwrap = value.one_of(words);
     return;
   }
-  value.expect_keys(
-      {"method",           "solver",  "charts", "iterations", "tolerance",  "phi",           "allow_flips", "start",
-       "distortion_limit", "weights", "border", "coupling",   "smoothness", "orthogonality", "length",      "pins",
-       "iso_lines",        "shape",   "rule",   "direction",  "eye",        "feature_angle", "seam_cost",   "grain",
-       "grain_of"});
+  value.expect_keys({"method",        "solver",        "charts",
+                     "iterations",    "tolerance",     "phi",
+                     "allow_flips",   "start",         "distortion_limit",
+                     "weights",       "border",        "coupling",
+                     "smoothness",    "orthogonality", "length",
+                     "pins",          "iso_lines",     "shape",
+                     "rule",          "direction",     "eye",
+                     "feature_angle", "seam_cost",     "grain",
+                     "grain_of",      "max_distortion"});
   rule.unwrap = "new";
   if (const auto v = value.get("method")) {
     refuse_environment(*v);

@@ -401,14 +401,6 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
   return report;
 }
 
-std::vector<unsigned char> with_alpha(const ColorImage& image) {
-  std::vector<unsigned char> rgba(image.pixels.size() / 3 * 4, 255);
-  for (std::size_t i = 0; 3 * i < image.pixels.size(); ++i)
-    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
-                rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
-  return rgba;
-}
-
 /// How a material is seen that was painted and keeps its pixels.
 std::shared_ptr<const WeatheredLook> look_of(PaintedMaterial& painted, const Material& before, double depth_mm) {
   if (painted.look) return painted.look;

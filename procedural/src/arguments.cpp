@@ -235,7 +235,7 @@ std::vector<int> Arguments::matching_textures(std::size_t most) {
   const bool by_time = flag("onlytimedependant"), by_normal = flag("onlynormaldependant");
   std::vector<int> nodes;
   for (const auto& [name, recipe] : compiler_.library().recipes()) {
-    const std::string_view bottom = compiler_.bottom_type(name);
+    const std::string_view bottom = bottom_type(name, compiler_.library());
     if (nodes.size() >= most || compiler_.is_open(name) || bottom == "brickfunky" || bottom == "voronoifunky") continue;
     if (types != ",," && types.find("," + std::string(bottom) + ",") == std::string::npos) continue;
     if (name.find(part) == std::string::npos || recipe.find(content) == std::string::npos) continue;

@@ -471,6 +471,12 @@ constexpr NamedColour k_colours[] = {{"aliceblue", 0xf0f8ff},
 
 }  // namespace
 
+std::vector<std::string_view> colour_names() {
+  std::vector<std::string_view> names;
+  for (const NamedColour& colour : k_colours) names.push_back(colour.name);
+  return names;
+}
+
 std::optional<Rgb> named_colour(std::string_view name) noexcept {
   const auto it = std::lower_bound(std::begin(k_colours), std::end(k_colours), name,
                                    [](const NamedColour& c, std::string_view n) { return c.name < n; });

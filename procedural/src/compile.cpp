@@ -143,10 +143,10 @@ bool Compiler::is_open(std::string_view name) const {
   return std::find(open_.begin(), open_.end(), name) != open_.end();
 }
 
-std::string_view Compiler::bottom_type(std::string_view name) const {
+std::string_view bottom_type(std::string_view name, const RecipeLibrary& library) {
   for (int step = 0; step < 64; ++step) {
     if (find_type(name)) return find_type(name)->name;
-    const std::string* recipe = library_.find(name);
+    const std::string* recipe = library.find(name);
     if (!recipe) return "";
     name = trimmed({std::string_view(*recipe).substr(0, recipe->find('|')), 0}).text;
   }

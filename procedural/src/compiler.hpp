@@ -16,6 +16,9 @@ namespace papilla::procedural_detail {
 
 class Compiler;
 
+/// The type that a name comes down to: itself, or that of the recipe; empty when there is none.
+std::string_view bottom_type(std::string_view name, const RecipeLibrary& library);
+
 /// Settings that a texture passes on to the textures within it.
 struct InheritedSettings {
   double seed = 0, time = 0;
@@ -94,8 +97,6 @@ class Compiler {
   const Origin& keep(Origin origin) { return origins_.emplace_back(std::move(origin)); }
   /// True while the named recipe is being compiled.
   bool is_open(std::string_view name) const;
-  /// The type at the bottom of a named recipe.
-  std::string_view bottom_type(std::string_view name) const;
 
  private:
   const TypeInfo& expand(const RecipeSyntax& syntax, const Origin& origin, std::vector<Bound>& bound);

@@ -15,9 +15,6 @@ using namespace procedural_detail;
 
 constexpr int k_deepest = 16;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool in_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '.' || is_digit(c); }
-
 class Mutation {
  public:
   Mutation(const RecipeLibrary& library, unsigned seed, double strength)
@@ -55,10 +52,9 @@ class Mutation {
   }
 
   std::string number(const ParameterInfo& p, std::string_view text) {
-    double v = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), v);
-    if (error != std::errc() || stop != text.data() + text.size()) return std::string(text);
-    v = changed(v);
+    const auto read = plain_number(text);
+    if (!read) return std::string(text);
+    const double v = changed(*read);
     return plain(std::clamp(p.kind == ParameterKind::integer ? std::round(v) : v, p.low, p.high));
   }
 
@@ -71,11 +67,9 @@ class Mutation {
       std::size_t end = at;
       while (end < text.size() && in_name(text[end])) ++end;
       const std::string_view word = text.substr(at, std::max<std::size_t>(end - at, 1));
-      double v = 0;
-      const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), v);
-      const bool number = error == std::errc() && stop == word.data() + word.size() && std::isfinite(v);
+      const auto number = plain_number(word);
       if (brackets == 0 && number && word.find('.') != std::string_view::npos)
-        out += plain(changed(v));
+        out += plain(changed(*number));
       else
         out += word;
       at += word.size();

@@ -2,9 +2,11 @@
 #include "syntax.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
-#include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/procedural/recipe_error.hpp"
 
 namespace papilla::procedural_detail {
 namespace {
@@ -70,11 +72,10 @@ std::vector<Piece> split(Piece text, char separator, std::string_view kinds, con
 void fail_at(const Origin& origin, std::size_t position, const std::string& reason) {
   position = std::min(position, origin.whole.size());
   const std::string_view before = origin.whole.substr(0, position);
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const auto line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
   const std::size_t start = before.rfind('\n');
   const std::size_t column = position - (start == std::string_view::npos ? 0 : start + 1) + 1;
-  throw InvalidInput(origin.name + ": line " + std::to_string(line) + ", column " + std::to_string(column) + ": " +
-                     reason);
+  throw RecipeError(origin.name, position, line, column, reason);
 }
 
 Piece trimmed(Piece piece) {
@@ -90,10 +91,18 @@ std::string in_quotes(std::string_view text) {
   return "'" + shown(text.substr(0, 40)) + (text.size() > 40 ? "...'" : "'");
 }
 
+bool in_name(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '.'; }
+
 bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= 200 && is_letter(text.front()) &&
-         std::all_of(text.begin(), text.end(),
-                     [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '.'; });
+         std::all_of(text.begin(), text.end(), in_name);
+}
+
+std::optional<double> plain_number(std::string_view text) {
+  double v = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(v)) return std::nullopt;
+  return v;
 }
 
 RecipeSyntax split_recipe(Piece recipe, const Origin& origin) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,7 @@ struct RecipeSyntax {
   std::vector<Assignment> parameters;
 };
 
-/// @throws InvalidInput "recipe 'x': line 1, column 7: …".
+/// @throws RecipeError "recipe 'x': line 1, column 7: …".
 [[noreturn]] void fail_at(const Origin& origin, std::size_t position, const std::string& reason);
 
 /// Splits at the bars outside of brackets. @throws InvalidInput with position.
@@ -48,5 +49,11 @@ Piece trimmed(Piece piece);
 std::string in_quotes(std::string_view text);
 
 bool is_name(std::string_view text);
+
+/// Whether a character may stand in a name or number.
+bool in_name(char c);
+
+/// The number that a text is, all of it; nothing when it is none.
+std::optional<double> plain_number(std::string_view text);
 
 }  // namespace papilla::procedural_detail

@@ -13,7 +13,7 @@ FIELDS = {
     "param": """
         param/flattening param/chart_choice param/measure param/triplanar param/natural param/projections param/maillot
         param/levy param/levy_coupling param/lscm param/reference_maps param/best param/automatic param/pack param/pack_unique
-        param/seam_visibility param/seam_choice pipeline/unwrap_method pipeline/unwrap_scene pipeline/measure_scene""",
+        param/seam_visibility param/seam_choice param/bounded_seams pipeline/unwrap_method pipeline/unwrap_scene pipeline/measure_scene""",
     "texture": """
         texture/fractal texture/box_dimension texture/fshot_dimension texture/best_dimension
         texture/probability_dimension texture/fractal_readings texture/feature_matrix texture/lattice
@@ -45,7 +45,7 @@ LEFT_OUT = ["StageRule", "LoopStatus", "LoopOptions", "EvaluationKind", "Evaluat
             "TexturePoints", "PointRaster", "PlacedMesh", "EvaluationGroup", "HeightRows",
             "GltfSurfaceEdit", "GltfEdit", "EncodedRelief", "EncodedMaps", "BudgetPart", "MeshSheets", "ComparedPart",
             "SelectorKey", "PixelRelief", "IdenticalOptions", "AssignedPart", "ObjectTextureOptions", "HeightField",
-            "GltfSource", "GltfTagEdit"]  # fmt: skip
+            "GltfSource", "GltfTagEdit", "SeamTools", "ChartedMap", "BoundedSeams"]  # fmt: skip
 
 # Small structs of numbers that come in large numbers: vectors of them are structured arrays.
 STRUCTURED = ["TraceSample", "TriangleDistortion", "ScalePoint", "RecordRow", "WeldStep", "Instance"]

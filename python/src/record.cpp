@@ -119,4 +119,9 @@ void throw_wrong_type(py::handle given, const std::string& place, const std::str
   throw UsageError(place + ": needs " + wanted + ", got " + type_name(given));
 }
 
+void throw_out_of_range(py::handle given, const std::string& place, const std::string& low, const std::string& high) {
+  throw UsageError(place + ": needs an integer from " + low + " to " + high + ", got " +
+                   py::str(given).cast<std::string>());
+}
+
 }  // namespace papilla::python

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -144,6 +145,9 @@ void from_python(T& value, py::handle given, const std::string& place);
 py::array structured_array(py::handle given, const py::dtype& dtype, const std::string& place);
 
 [[noreturn]] void throw_wrong_type(py::handle given, const std::string& place, const std::string& wanted);
+/// Of an integer.
+[[noreturn]] void throw_out_of_range(py::handle given, const std::string& place, const std::string& low,
+                                     const std::string& high);
 
 /// A copy of a container so that nobody changes it in vain: lists as tuples, sets frozen, dictionaries as proxies.
 py::object read_only(const py::object& copy);
@@ -292,6 +296,10 @@ void from_python(T& value, py::handle given, const std::string& place) {
     try {
       value = given.cast<T>();
     } catch (const py::cast_error&) {
+      if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+        if (PyLong_Check(given.ptr()))
+          throw_out_of_range(given, place, std::to_string(std::numeric_limits<T>::min()),
+                             std::to_string(std::numeric_limits<T>::max()));
       throw_wrong_type(given, place, py::detail::make_caster<T>::name.text);
     }
   }

@@ -2,10 +2,12 @@
 // The operator new of the program papilla, which this test is linked with.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -98,6 +100,37 @@ TEST(HugePages, NoTwoOwnersShareABlock) {
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(spoilt, (std::array<int, k_threads>{}));
+}
+
+TEST(HugePages, AForkedChildHasBlocksWhateverOtherThreadsDo) {
+  constexpr int k_children = 200, k_threads = 3;
+  constexpr unsigned k_patience_s = 20;
+  std::atomic<bool> ends = false;
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < k_threads; ++thread)
+    threads.emplace_back([&ends] {
+      std::mt19937 random(1);
+      while (!ends) {  // More than is kept: some of them go back to the system.
+        std::vector<std::unique_ptr<std::byte[]>> blocks;
+        for (int block = 0; block < 4; ++block)
+          blocks.push_back(filled(9 * k_mib + random() % (20 * k_mib), std::byte{1}));
+      }
+    });
+  int stuck = 0;
+  for (int i = 0; i < k_children && stuck == 0; ++i) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::alarm(k_patience_s);  // Ends a child that waits for a thread of its parent.
+      for (int block = 0; block < 3; ++block) filled(8 * k_mib, std::byte{1});
+      ::_exit(0);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    stuck += !WIFEXITED(status);
+  }
+  ends = true;
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(stuck, 0);
 }
 
 }  // namespace

@@ -58,10 +58,22 @@ TEST(UnwrapOption, OptionsOfOtherMethodsAreRefused) {
   EXPECT_EQ(complaint("--method best --phi 0.3"), "--phi: it is of maillot, not of best");
   EXPECT_EQ(complaint("--shape cone"), "--shape: it is of intermediate, not of auto");
   EXPECT_EQ(complaint("--method lscm --iso-line u:0,0,0;1,0,0"), "--iso-line: it is of levy, not of lscm");
-  EXPECT_EQ(complaint("--method planar --eye 1,2,3"), "--eye: it is of environment, intermediate, not of planar");
+  EXPECT_EQ(complaint("--method planar --eye 1,2,3"),
+            "--eye: it is of auto, best, environment, intermediate, not of planar");
   EXPECT_EQ(complaint("--method auto --iterations 5"), "");
   EXPECT_NE(complaint("--method maillot --distortion-limit 0.5").find("at least 1"), std::string::npos);
   EXPECT_NE(complaint("--method lscm --solver direct").find("no such solver"), std::string::npos);
+}
+
+TEST(UnwrapOption, ABoundOnDistortionFindsSeamCostAndCharts) {
+  EXPECT_EQ(complaint("--max-distortion 4.1"), "");
+  EXPECT_EQ(complaint("--method best --max-distortion p95=4.2 --eye 1,2,3"), "");
+  EXPECT_EQ(complaint("--method levy --max-distortion 4.1"), "--max-distortion: it is of auto, best, not of levy");
+  EXPECT_EQ(complaint("--max-distortion 4.1 --seam-cost 0.03"),
+            "--seam-cost: --max-distortion finds it, give one of the two");
+  EXPECT_EQ(complaint("--max-distortion 4.1 --charts uv"), "--charts uv: --max-distortion makes charts of its own");
+  for (const char* bad : {"3.9", "p95", "4.1mm", "p0=4.1"})
+    EXPECT_NE(complaint(std::string("--max-distortion ") + bad).find("expected D or pNN=D"), std::string::npos) << bad;
 }
 
 TEST(UnwrapOption, ACouplingThatCantBeKeptIsRefused) {

@@ -38,6 +38,19 @@ says "--weld: 'x' is no number" 2 "$papilla" repair a.stl -o b.stl --weld x
 says "kind: 'tesselation' is none of param,weld," 2 "$papilla" evaluate tesselation -o "$out/evaluation"
 says "did you mean 'tessellation'?" 2 "$papilla" evaluate tesselation -o "$out/evaluation"
 
+# A bound on distortion that can't be kept is said; with --strict it is an error, and nothing is written.
+awk 'BEGIN { n = 80; for (i = 0; i <= n; ++i) for (j = 0; j <= n; ++j) { x = i / n - 0.5; y = 1.4 * (j / n - 0.5); print "v", 10 * x, 10 * y, 9 * x * x + 5 * y * y }
+  for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) { a = i * (n + 1) + j + 1; b = a + n + 1; print "f", a, b, b + 1; print "f", a, b + 1, a + 1 } }' >"$out/bowl.obj"
+says "the bound of 4 can't be kept" 4 "$papilla" unwrap "$out/bowl.obj" -o "$out/strict.glb" --max-distortion 4 --strict
+[[ ! -e $out/strict.glb ]] || fail "unwrap --strict: wrote a file"
+"$papilla" unwrap "$out/bowl.obj" -o "$out/bound.glb" --max-distortion 4 --json "$out/bound.json" >"$out/stdout" || fail "unwrap --max-distortion 4: exit code $?"
+grep -q "can't be kept" "$out/stdout" || fail "unwrap --max-distortion 4: not said"
+grep -q '"kept": false' "$out/bound.json" || fail "unwrap --max-distortion 4: not in JSON"
+"$papilla" unwrap "$out/bowl.obj" -o "$out/bound.glb" --max-distortion p95=4.2 --json "$out/bound.json" >"$out/stdout" || fail "unwrap --max-distortion p95=4.2"
+grep -q "the bound of p95=4.2 is kept" "$out/stdout" || fail "unwrap --max-distortion p95=4.2: $(cat "$out/stdout")"
+says "--seam-cost: --max-distortion finds it, give one of the two" 2 "$papilla" unwrap a.stl -o b.glb --max-distortion 4.1 --seam-cost 0.1
+says "--max-distortion '3.9': expected D or pNN=D" 2 "$papilla" unwrap a.stl -o b.glb --max-distortion 3.9
+
 # Options from a file: the command line goes before it, an object of the verb's name before what stands outside.
 echo '{"chord": 1, "quiet": true, "unwrap": {"method": "lscm"}, "inspect": {"nodes": true, "up": null}}' >"$out/options.json"
 "$papilla" tessellate "$data/exchange/handle.step" --config "$out/options.json" -o "$out/coarse.glb" --json "$out/coarse.json" >"$out/stdout" || fail "tessellate --config"

@@ -170,8 +170,8 @@ void body(BenchReport& report) {
   report_linear(all, peers, of, report);
   step("B: Maillot's energy");
   report_maillot(all, peers, of, report);
-  step("C: a million triangles");
-  report_million(all, peers, of, report);
+  step("C: least distortion");
+  report_best(all, peers, of, report);
   step("D: curved and branched disks");
   report_curved(peers, report);
   step("E: extremes");

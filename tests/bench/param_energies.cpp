@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Targets A to C: linear maps, Maillot's energy, a million triangles.
+// Targets A and B: linear maps, Maillot's energy.
 #include <fmt/core.h>
 
 #include "bench/param_targets.hpp"
@@ -79,15 +79,6 @@ void report_maillot(const std::vector<Disk>& all, Peers& peers, const Medians& o
                             fmt::format("{:.4g}", r.maillot_area), fmt::format("{:.5f}", r.symmetric_dirichlet.mean)});
     }
   report.table(std::move(table));
-}
-
-void report_million(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report) {
-  report.target(
-      {"C: symmetric Dirichlet on dash 1M at most 4.0080",
-       fmt::format("{:.5f}, {}", of.energy("best", "dash 1M"), of.valid("best", "dash 1M") ? "valid" : "NOT VALID"),
-       of.energy("best", "dash 1M") <= 4.0080 && of.valid("best", "dash 1M")});
-  cpu_target("C: best on dash 1M: at most 0.30 of the CPU of libigl's LSCM (stretch: 0.15)", mesh_of(all, "dash 1M"),
-             best, peers.find("lscm", "dash 1M", mesh_of(all, "dash 1M")), 0.30, 1, report);
 }
 
 }  // namespace papilla::bench

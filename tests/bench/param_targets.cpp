@@ -72,8 +72,10 @@ void cpu_target(const std::string& promise, const TriangleMesh& mesh, const MapM
     report.target({promise, fmt::format("{:.4f} s; no peer program was given", own), {}});
     return;
   }
-  const double theirs = peer_share * peer->map.cpu_seconds, ratio = own / theirs;
-  report.target({promise, fmt::format("{:.3f} ({:.4f} s against {:.4f} s)", ratio, own, theirs), ratio <= limit});
+  const double theirs = peer->map.cpu_seconds, ratio = own / theirs;
+  const std::string share = peer_share < 1 ? fmt::format("1/{:.1f}", theirs / own) : fmt::format("{:.3f}", ratio);
+  report.target(
+      {promise, fmt::format("{} ({:.4f} s against {:.4f} s)", share, own, theirs), ratio <= limit * peer_share});
 }
 
 namespace {

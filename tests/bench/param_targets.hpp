@@ -95,7 +95,7 @@ void add_factorizations(const std::vector<Disk>& all, BenchReport& report);
 /// What the targets by their letters have to say.
 void report_linear(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report);   // A
 void report_maillot(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report);  // B
-void report_million(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report);  // C
+void report_best(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report);     // C
 void report_curved(Peers& peers, BenchReport& report);                                                    // D
 void report_extremes(const TriangleMesh& dash, BenchReport& report);                                      // E
 void report_parts(const std::vector<Disk>& all, BenchReport& report);                                     // F

@@ -143,7 +143,8 @@ class OptionsTest(unittest.TestCase):
         reader = engine("MODULE")
         methods = reader.methods()
         values = {"charts": "keep", "grain": "up", "solver": "cgal", "pins": [{"at": [0, 0, 0], "uv": [0, 0]}],
-                  "iso_lines": [{"of": "u", "through": [[0, 0, 0], [1, 0, 0]]}], "eye": [0, 0, 1], "direction": [0, 0, 1]}
+                  "iso_lines": [{"of": "u", "through": [[0, 0, 0], [1, 0, 0]]}], "eye": [0, 0, 1], "direction": [0, 0, 1],
+                  "max_distortion": 4.1}
         told = schemas.schema("materials")["$defs"]["unwrap"]["properties"]
         for method in methods:
             if method == unwrap_options.ENVIRONMENT:

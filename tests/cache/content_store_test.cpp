@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -155,6 +156,28 @@ TEST(ContentStore, EvictsWhatWasNotUsedForLongest) {
   EXPECT_FALSE(get(store, 1));
   EXPECT_FALSE(get(store, 2));
   EXPECT_EQ(store.evict(2500).entries, 0u);
+}
+
+TEST(ContentStore, AtItsLimitKeepsAll) {
+  const TemporaryFolder folder("store");
+  const ContentStore store(folder.path());
+  for (std::uint8_t i = 0; i < 2; ++i) put(store, i, content(1000 - 48, i));
+  EXPECT_EQ(store.evict(2000).entries, 0u);
+  EXPECT_EQ(store.evict(1999).entries, 1u);
+}
+
+TEST(ContentStore, TellsItsFirstAndItsLastUse) {
+  const TemporaryFolder folder("store");
+  const ContentStore store(folder.path());
+  const auto now = std::chrono::system_clock::now();
+  constexpr int ages_h[] = {50, 70, 30, 60};
+  for (std::uint8_t i = 0; i < 4; ++i) {
+    put(store, i, content(10, i));
+    set_age(store.path_of("stage", key(i)), 3600 * ages_h[i]);
+  }
+  const StoreStatistics statistics = store.statistics();
+  EXPECT_NEAR(std::chrono::duration<double>(now - statistics.least_recent).count() / 3600, 70, 0.1);
+  EXPECT_NEAR(std::chrono::duration<double>(now - statistics.most_recent).count() / 3600, 30, 0.1);
 }
 
 TEST(ContentStore, MayBeUsedByManyAtOnce) {

@@ -29,6 +29,8 @@ TEST(StageKey, IsOfStageInputsAndOptions) {
   const Digest key = key_of("stage", Options{}, 5);
   EXPECT_EQ(key_of("stage", Options{}, 5), key);
   EXPECT_NE(key_of("other", Options{}, 5), key);
+  EXPECT_NE(key_of("stages", Options{}, 5), key);
+  EXPECT_NE(key_of("s", Options{}, 5), key);
   EXPECT_NE(key_of("stage", Options{}, 6), key);
   EXPECT_NE(key_of("stage", Options{.length = 2}, 5), key);
   EXPECT_NE(key_of("stage", Options{.rounds = 4}, 5), key);

@@ -42,6 +42,17 @@ TEST(Bounds, OfThePlane) {
   EXPECT_FALSE(box.overlaps(Bounds2{{0, 5}, {3, 6}}, 0.5));
 }
 
+TEST(Bounds, OverlapsWithinAMarginAlongEveryAxis) {
+  const Bounds3 box{{0, 10, 200}, {1, 14, 209}};
+  const auto moved = [&](Vec3 by) { return Bounds3{box.low + by, box.high + by}; };
+  for (const Vec3& apart : {Vec3{1.5, 0, 0}, Vec3{0, 4.5, 0}, Vec3{0, 0, 9.5}}) {
+    for (const double sense : {-1.0, 1.0}) {
+      EXPECT_TRUE(box.overlaps(moved(sense * apart), 0.5));
+      EXPECT_FALSE(box.overlaps(moved(sense * apart), 0.4));
+    }
+  }
+}
+
 TEST(Bounds, ContainsByAMargin) {
   const Bounds3 box{{0, 0, 0}, {4, 4, 4}}, inner{{1, 1, 1}, {3, 3, 3}};
   EXPECT_TRUE(box.contains(inner));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "papilla/core/units.hpp"
+
 namespace papilla {
 namespace {
 
@@ -10,6 +12,8 @@ TEST(UnitName, KnowsTheUsualOnes) {
   EXPECT_EQ(unit_name(1), "mm");
   EXPECT_EQ(unit_name(1000), "m");
   EXPECT_EQ(unit_name(25.4), "in");
+  EXPECT_EQ(unit_name(k_mm_per_inch), "in");
+  EXPECT_EQ(unit_name(k_mm_per_metre), "m");
   EXPECT_EQ(unit_name(304.8), "ft");
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/mesh_files.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <vector>
 
@@ -200,6 +202,88 @@ TEST_F(ObjReader, EveryPrefixThrowsOrSucceeds) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
   }
+}
+
+/// Quads that stand alone, several blocks of a reader's lines of them: corners count back, every 7th face goes on in
+/// the next line, and every part has quads at the beginning of the file and at its end.
+class LargeObj {
+ public:
+  static constexpr int k_quads = 12000, k_parts = 3;
+
+  static Vec3 corner(int quad, int k) { return {quad + (k == 1 || k == 2) * 0.5, 2.0 * (k > 1), quad % 5 * 0.25}; }
+  static Vec2 uv(int quad, int k) { return {quad * 0.125, k * 0.25}; }
+  static int part_of(int quad) { return quad / 700 % k_parts; }
+
+  std::string text() {
+    lines_ = 0;
+    std::string text;
+    const auto add = [&](const std::string& line) { text += line + (++lines_ % 3 == 0 ? "\r\n" : "\n"); };
+    for (int q = 0; q < k_quads; ++q) {
+      if (q % 700 == 0) add("o part " + std::to_string(part_of(q)));
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 p = corner(q, k);
+        add(fmt::format("v {} {} {}{}", p.x, p.y, p.z, q >= 11000 ? " 1 0 0" : ""));
+        add(fmt::format("vt {} {}", uv(q, k).x, uv(q, k).y));
+      }
+      if (q % 7 == 0) {
+        add("f -4/-4 -3/-3 \\");
+        add(" -2/-2 -1/-1");
+      } else {
+        add(fmt::format("f {0}/{0} {1}/-3 -2/{2} {3}/{3}", 4 * q + 1, 4 * q + 2, 4 * q + 3, 4 * q + 4));
+      }
+    }
+    return text;
+  }
+  int lines() const { return lines_; }
+
+ private:
+  int lines_ = 0;
+};
+
+TEST_F(ObjReader, ALargeFileIsReadInBlocksAsAWhole) {
+  const std::string text = LargeObj().text();
+  ASSERT_GT(text.size(), std::size_t{3} << 19);
+  for (const std::size_t threads : {1, 4}) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const Scene scene = read(text);
+    ASSERT_EQ(scene.parts.size(), std::size_t{LargeObj::k_parts});
+    std::vector<std::size_t> seen(LargeObj::k_parts, 0);
+    for (int q = 0; q < LargeObj::k_quads; ++q) {
+      const int part = LargeObj::part_of(q);
+      ASSERT_EQ(scene.parts[part].name, "part " + std::to_string(part));
+      const TriangleMesh& mesh = scene.parts[part].mesh;
+      const std::size_t t = 2 * seen[part]++;
+      for (std::size_t k = 0; k < 3; ++k) {
+        ASSERT_EQ(mesh.corner(t, k), LargeObj::corner(q, static_cast<int>(k))) << q;
+        ASSERT_EQ(mesh.uv.values[mesh.uv.indices[t][k]], LargeObj::uv(q, static_cast<int>(k))) << q;
+        ASSERT_EQ(mesh.corner(t + 1, k), LargeObj::corner(q, k == 0 ? 0 : static_cast<int>(k) + 1)) << q;
+      }
+      const Color colour = mesh.colors.values[mesh.colors.indices[t][0]];
+      ASSERT_EQ(colour.g, q >= 11000 ? 0.0F : Color{}.g) << q;
+    }
+    for (int part = 0; part < LargeObj::k_parts; ++part)
+      EXPECT_EQ(scene.parts[part].mesh.triangles.size(), 2 * seen[part]);
+  }
+}
+
+TEST_F(ObjReader, FaultsOfALargeFileNameTheirLine) {
+  LargeObj large;
+  const std::string text = large.text();
+  const std::string line = "line " + std::to_string(large.lines() + 2) + ": ";
+  const auto refused = [&](const std::string& fault, const std::string& reason) {
+    EXPECT_NE(refusal(text + "# a comment\n" + fault + "\nf 1 2 what\n").find(line + reason), std::string::npos)
+        << fault;
+  };
+  refused("f 1 2 -48001", "vertex -48001 does not exist");
+  refused("f 1/1 2/2 3/-48001", "texture vertex -48001 does not exist");
+  refused("f 1 -48001", "vertex -48001 does not exist");
+  refused("v 1 nan 2", "a vertex is not finite");
+  EXPECT_NE(refusal(text + "\nf 1 2 48001\n").find(line + "vertex 48001 of 48000 does not exist"), std::string::npos);
+  const Scene scene = read(text + "# a comment\nf 1 -48000\nf 2 3\nvn 1 nan 2\n");
+  ASSERT_EQ(scene.warnings.size(), 2U);
+  EXPECT_NE(scene.warnings[0].find("2 faces of fewer"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("line " + std::to_string(large.lines() + 2)), std::string::npos);
+  EXPECT_NE(scene.warnings[1].find("line " + std::to_string(large.lines() + 4)), std::string::npos);
 }
 
 }  // namespace

@@ -367,6 +367,27 @@ TEST(ChartCuts, OpenAndHalveChartsOfAnyOrigin) {
   EXPECT_THROW(ChartHalver(sheet).halve(halves, std::vector<std::uint32_t>{2}), InvalidInput);
 }
 
+/// A fin on the first edge of a triangle: three triangles meet there, so that none has a neighbour across it.
+TriangleMesh with_fin(TriangleMesh mesh, std::size_t triangle) {
+  const Index a = mesh.triangles[triangle][0], b = mesh.triangles[triangle][1];
+  mesh.triangles.push_back({a, b, static_cast<Index>(mesh.positions.size())});
+  mesh.positions.push_back(1.4 * mesh.positions[a]);
+  return mesh;
+}
+
+TEST(ChartCuts, TwoBordersBetweenTheSameVerticesAreASlit) {
+  for (const TriangleMesh& whole : {sphere(6), torus(24, 12), torus(9, 14), double_torus()})
+    for (const std::size_t at : {std::size_t{0}, whole.triangles.size() / 3, whole.triangles.size() - 1}) {
+      const TriangleMesh mesh = with_fin(whole, at);
+      ChartSet charts{std::vector<std::uint32_t>(mesh.triangles.size(), 0), 2, 0};
+      charts.of_triangle.back() = 1;
+      SegmentationResult result;
+      result.charts = open_charts(mesh, charts);
+      EXPECT_EQ(result.charts.count, 2u);
+      expect_disks(mesh, result);
+    }
+}
+
 TEST(Segmentation, RandomTerrainsAndRepairedSoups) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     const TriangleMesh rough = terrain(30, 2, seed);

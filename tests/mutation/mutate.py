@@ -341,7 +341,7 @@ def main():
     parser.add_argument("--list", action="store_true", help="check the list against the sources, and end")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="compilers at a time")
     parser.add_argument("--json", metavar="FILE", help="write the results there, too")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()  # As ./run gives them: options of its own before those of who calls it.
     project = Project(arguments.root.resolve())
     signal.signal(signal.SIGINT, interrupt)
     signal.signal(signal.SIGTERM, interrupt)

@@ -104,7 +104,7 @@ class MutateTest(unittest.TestCase):
 
     def test_pattern_chooses_by_id_and_file(self):
         self.commit(KILLED, SURVIVES)
-        self.assertIn("1 faults", self.mutate("^area")[1])
+        self.assertIn("1 faults", self.mutate("--jobs", "1", "^area")[1])
         self.assertIn("2 faults", self.mutate("size.cpp")[1])
         self.assertEqual(self.mutate("nothing")[0], 2)
 

@@ -3,6 +3,8 @@
 import { existsSync, mkdirSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 
+const POLLING_MS = 50;
+const STEP_MS = 300_000;  // Many times what any step takes: one that does not end is told by its name, and not by the limit of ctest.
 const PLACES = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
 
 /** Ends the test as skipped when there is no browser. */
@@ -24,7 +26,9 @@ export async function openUrl(browser, url, { init, ...options } = {}) {
   const own = url.startsWith('http') ? new URL(url).origin : 'file:';
   const page = await browser.newPage({ viewport: { width: 1400, height: 950 }, ...options });
   const complaints = [];
-  page.setDefaultTimeout(0);  // ctest limits the whole test; how long a step takes is the machine's affair
+  const wait = page.waitForFunction.bind(page);  // By the clock: where a processor draws, the next picture may be long in coming.
+  page.waitForFunction = (work, argument, more) => wait(work, argument, { polling: POLLING_MS, ...more });
+  page.setDefaultTimeout(STEP_MS);
   page.on('console', (message) => { if (message.type() === 'error') complaints.push(message.text()); });
   page.on('pageerror', (error) => complaints.push(error.stack));
   page.on('dialog', (dialog) => { complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });

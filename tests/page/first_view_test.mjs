@@ -18,7 +18,7 @@ const near = (a, b, within) => a.every((v, i) => Math.abs(v - b[i]) <= within);
 /** Until the scene has been drawn at rest. */
 const rest = (page) => page.evaluate(() => new Promise((resolve) => {
   const { three } = globalThis.papilla;
-  const look = () => three.coarse || three.pending ? requestAnimationFrame(look) : resolve();
+  const look = () => three.pace.isCoarse || three.pending ? requestAnimationFrame(look) : resolve();
   setTimeout(look, 400);
 }));
 async function ready(options) {

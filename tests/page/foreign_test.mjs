@@ -64,6 +64,23 @@ function unlit({ uri = RED_BLUE, extension = null, color = [1, 1, 1, 1] }) {
   return model;
 }
 
+/** The square with one normal everywhere: of its vertices, or of a picture, X along u, Y against v. */
+function tilted(normal, byPicture) {
+  const model = gltf({ name: byPicture ? 'pictured' : 'tilted', uv: true });
+  model.materials = [{ name: 'grey', pbrMetallicRoughness: { baseColorFactor: [0.4, 0.4, 0.4, 1], metallicFactor: 0, roughnessFactor: 0.6 } }];
+  const bytes = Buffer.from(new Float32Array(Array(4).fill(byPicture ? [0, 0, 1] : normal).flat()).buffer);
+  model.buffers.push({ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString('base64')}` });
+  model.bufferViews.push({ buffer: 1, byteLength: bytes.length });
+  model.accessors.push({ bufferView: 3, componentType: 5126, count: 4, type: 'VEC3' });
+  model.meshes[0].primitives[0].attributes.NORMAL = 3;
+  if (!byPicture) return model;
+  const pixel = normal.map((c) => Math.round(255 * (c + 1) / 2));
+  model.images = [{ uri: `data:image/png;base64,${rowPng([pixel, pixel]).toString('base64')}` }];
+  model.textures = [{ source: 0 }];
+  model.materials[0].normalTexture = { index: 0 };
+  return model;
+}
+
 function assertColour(found, wanted) {
   assert.ok(found.every((value, i) => Math.abs(value - wanted[i]) <= 3), `${found} instead of ${wanted}`);
 }
@@ -104,6 +121,16 @@ try {
     const { page, complaints } = await view('unlit', unlit({ uri: null, color: [0.2159, 0.0, 0.8, 1] }));
     assertColour(await middleOf(page), [128, 0, 231]);
     assert.deepEqual(complaints, []);
+  }
+  { // a normal of a picture is lit as one of the vertices
+    const seen = [];
+    for (const [name, normal] of [['right', [0.6, 0, 0.8]], ['up', [0, 0.6, 0.8]], ['down', [0, -0.6, 0.8]]]) {
+      const [vertices, picture] = [await view(`${name} by vertices`, tilted(normal, false)), await view(`${name} by a picture`, tilted(normal, true))];
+      seen.push(await middleOf(vertices.page));
+      assertColour(await middleOf(picture.page), seen.at(-1));
+      assert.deepEqual([...vertices.complaints, ...picture.complaints], []);
+    }
+    assert.ok(Math.abs(seen[1][0] - seen[2][0]) > 20, `up and down look alike: ${seen}`);
   }
   { // back sides are drawn where the material says so, as clients do; a mirrored node shows its front
     const turned = (doubleSided, scale) => {

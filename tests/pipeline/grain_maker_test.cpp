@@ -94,5 +94,33 @@ TEST_F(GrainMakerTest, ADeadlineHoldsForWhatIsMadeWhenAskedFor) {
   expect_same(maker.take("ovals"), "ovals");
 }
 
+TEST_F(GrainMakerTest, ShownGrainsAreTheSameButForWhatIsOnlyTold) {
+  MaterialRule rule = rules_.materials.at("ovals");
+  bool has_lattice = false, has_dimension = false;
+  for (const char* recipe : {"rust_base", "grain:spheres6"}) {
+    SCOPED_TRACE(recipe);
+    rule.texture = rule.recipe = recipe;
+    const Grain whole = make_grain(rule, library_), shown = make_shown_grain(rule, library_);
+    EXPECT_FALSE(shown.lattice || shown.tag.symmetry);
+    EXPECT_EQ(shown.height_png.bytes, whole.height_png.bytes);
+    EXPECT_EQ(shown.normal_png.bytes, whole.normal_png.bytes);
+    MaterialTag rest = whole.tag;
+    ASSERT_TRUE(rest.roughness);
+    has_lattice = has_lattice || (whole.lattice && rest.symmetry);
+    has_dimension = has_dimension || rest.roughness->fractal_dimension;
+    rest.symmetry.reset(), rest.roughness->fractal_dimension.reset();
+    EXPECT_EQ(to_json(shown.tag), to_json(rest));
+    EXPECT_EQ(std::vector(shown.size_mm, shown.size_mm + 2), std::vector(whole.size_mm, whole.size_mm + 2));
+  }
+  EXPECT_TRUE(has_lattice && has_dimension) << "else it has nothing that could be left out";
+
+  // Pictures are read in any case, as their relief needs it; what the cache knows is taken.
+  const MaterialRule& picture = rules_.materials.at("ovals");
+  EXPECT_EQ(to_json(make_shown_grain(picture, library_).tag), to_json(make_grain(picture, library_).tag));
+  const StageCache cache{ContentStore(folder_ / "cache")};
+  make_grain(rule, library_, {}, &cache);
+  EXPECT_TRUE(make_shown_grain(rule, library_, {}, &cache).lattice);
+}
+
 }  // namespace
 }  // namespace papilla

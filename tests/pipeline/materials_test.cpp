@@ -267,6 +267,11 @@ TEST_F(MaterialsTest, RangesAreWrittenAsPeopleDo) {
   expect(R"("environment")", "moves with the eye");
   expect(R"({"method": "environment"})", "/unwrap/method: 'environment' moves with the eye");
   expect(R"({"method": "keep"})", "must be one of");
+  expect(R"({"max_distortion": 3.9})", "/max_distortion");
+  expect(R"({"max_distortion": "p95"})", "/max_distortion: must be a number from 4 on, or \"pNN=D\"");
+  expect(R"({"max_distortion": 4.1, "seam_cost": 0.1})", "/max_distortion: finds the seam cost");
+  expect(R"({"max_distortion": 4.1, "charts": "keep"})", "/max_distortion: finds charts");
+  expect(R"({"method": "levy", "max_distortion": 4.1})", "/max_distortion: is of auto, best, not of levy");
   expect(R"({"grain": "sideways"})", "must be one of up, longest");
   expect(R"({"grain": [0, 0, 0]})", "/grain: has no length");
   expect(R"({"grain": 3})", "/grain: must be");

@@ -3,12 +3,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/pipeline/studio/allowed_folders.hpp"
+#include "papilla/pipeline/studio/shown_levels.hpp"
 #include "papilla/pipeline/studio/shown_mesh.hpp"
 #include "papilla/pipeline/studio/studio_document.hpp"
 #include "papilla/pipeline/studio/studio_scene.hpp"
@@ -128,6 +133,10 @@ TEST_F(StudioFolders, PathsStayInThem) {
     EXPECT_THROW(folders.file(path, folder_ / "in"), InvalidInput) << path;
   EXPECT_THROW(folders.file(fs::path(std::string("a\0b", 3)), folder_ / "in"), InvalidInput);
   EXPECT_THROW(AllowedFolders({folder_ / "none"}), IoError);
+  // No file has a name of 300 letters; a recipe may be as long.
+  const std::string recipe = "fbm|" + std::string(300, 'x') + "/2";
+  EXPECT_EQ(folders.file(recipe, folder_ / "in"), folder_ / "in" / recipe);
+  EXPECT_THROW(folders.file(recipe + "/../../../out.txt", folder_ / "in"), InvalidInput);
 }
 
 TEST(StudioPaths, AreAllThatMayNameFiles) {
@@ -156,6 +165,80 @@ TEST(ShownMesh, SharesWhatAgreesAndFindsSeams) {
   EXPECT_EQ(cut.positions.size(), 15U);
   EXPECT_EQ(cut.seams.size(), 5U * 6U);
   EXPECT_EQ(cut.measured, std::vector<float>(10, -1.0F));
+}
+
+Vec3 vec3_at(const std::vector<float>& list, std::size_t i) { return {list[3 * i], list[3 * i + 1], list[3 * i + 2]}; }
+
+/// 100 mm x 100 mm, folded upright along x = 50; uv are the millimetres of the flat sheet, but for u, which jumps by
+/// 700 at y = 50.
+TriangleMesh folded_plate(Index cells) {
+  TriangleMesh plate = test::plane(100, 100, cells, cells);
+  const auto values = static_cast<Index>(plate.uv.values.size());
+  for (Index i = 0; i < values; ++i) plate.uv.values.push_back(plate.uv.values[i] + Vec2{700, 0});
+  for (Triangle& t : plate.uv.indices) {
+    const bool is_beyond = plate.uv.values[t[0]].y + plate.uv.values[t[1]].y + plate.uv.values[t[2]].y > 150;
+    for (Index& i : t) i += is_beyond ? values : 0;
+  }
+  for (Vec3& p : plate.positions) p = {std::min(p.x, 50.0), p.y, std::max(p.x - 50, 0.0)};
+  return plate;
+}
+
+TEST(ShownLevels, LeaveSeamsFoldsAndUvWhereTheyAre) {
+  const ShownMesh plate = shown_mesh(folded_plate(20));
+  const std::vector<ShownLevel> levels = shown_levels(plate);
+  ASSERT_EQ(levels.size(), 1U);  // Flat: nothing is left for the others.
+  EXPECT_EQ(levels[0].screen_coverage, 1);
+  EXPECT_EQ(levels[0].indices.size(), 3U * 8U) << "two triangles each of four squares";
+  double area = 0;
+  for (std::size_t c = 0; c < levels[0].indices.size(); c += 3) {
+    const std::uint32_t* corner = &levels[0].indices[c];
+    const Vec3 a = vec3_at(plate.positions, corner[0]), b = vec3_at(plate.positions, corner[1]),
+               d = vec3_at(plate.positions, corner[2]), upright = cross(b - a, d - a);
+    area += norm(upright) / 2;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = vec3_at(plate.positions, corner[k]);
+      EXPECT_NEAR(norm(vec3_at(plate.normals, corner[k]) - normalized(upright)), 0, 1e-6) << "the fold stays sharp";
+      const double u = static_cast<double>(plate.uv[2 * corner[k]]), jump = a.y + b.y + d.y > 150 ? 700 : 0;
+      EXPECT_NEAR(u, p.x + p.z + jump, 1e-3) << "no triangle has corners on both sides of the seam";
+    }
+  }
+  EXPECT_NEAR(area, 1e4, 1e-2);
+}
+
+TEST(ShownLevels, StayWithinTheirTolerancesAndClosed) {
+  constexpr double k_radius = 50;
+  const TriangleMesh sphere = test::uv_sphere(k_radius, 64, 128);
+  const double diagonal = bounds_of(sphere).diagonal(), own = k_radius * (1 - std::cos(std::acos(-1.0) / 64));
+  const ShownMesh shown = shown_mesh(sphere);
+  const std::vector<ShownLevel> levels = shown_levels(shown);
+  ASSERT_GE(levels.size(), 3U);
+  std::size_t before = shown.indices.size();
+  double coverage = 2;
+  for (const ShownLevel& level : levels) {
+    EXPECT_LE(static_cast<double>(level.indices.size()), 0.9 * static_cast<double>(before));
+    EXPECT_LT(level.screen_coverage, coverage);
+    before = level.indices.size();
+    coverage = level.screen_coverage;
+    std::map<std::pair<Vec3, Vec3>, int> sides;
+    for (std::size_t c = 0; c < level.indices.size(); c += 3) {
+      Vec3 middle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 p = vec3_at(shown.positions, level.indices[c + k]),
+                   q = vec3_at(shown.positions, level.indices[c + (k + 1) % 3]);
+        middle = middle + 1.0 / 3 * p;
+        ++sides[p < q ? std::pair(p, q) : std::pair(q, p)];
+      }
+      EXPECT_GE(norm(middle), k_radius - own - diagonal / (2000 * level.screen_coverage));
+    }
+    for (const auto& [side, triangles] : sides) EXPECT_EQ(triangles, 2);
+  }
+}
+
+TEST(ShownLevels, OfNothingAreNone) {
+  EXPECT_TRUE(shown_levels({}).empty());
+  EXPECT_TRUE(shown_levels(shown_mesh(test::cube(10))).empty()) << "as few triangles as can be";
+  EXPECT_THROW(shown_levels(shown_mesh(test::uv_sphere(50, 64, 128)), nullptr, [](const Progress&) { return false; }),
+               Cancelled);
 }
 
 /// Two plates of one name and size, a third of another, as parts of a scene.

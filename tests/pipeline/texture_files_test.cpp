@@ -144,6 +144,26 @@ TEST(TextureFiles, WritesAStepForEveryTimeAndCanBeCancelled) {
   EXPECT_FALSE(std::filesystem::exists(folder / "none" / "series.gif"));
 }
 
+TEST(ContactSheet, BrightensDarkTiles) {
+  const RecipeLibrary none;
+  const auto plain = [](const char* colour) {
+    return NamedRecipe(colour, std::string("base|shade=false|mainfunction=0|cols=") + colour + "," + colour);
+  };
+  const ContactSheet sheet =
+      make_contact_sheet({plain("<.1,.2,.05>"), plain("<.35,.1,.2>"), plain("<.2,.4,.9>")}, none, {}, 16);
+  ASSERT_EQ(sheet.entries.size(), 3U);
+  const double exposures[] = {3, 2, 1};
+  const int pixels[3][3] = {{77, 153, 38}, {179, 51, 102}, {51, 102, 230}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    ASSERT_EQ(sheet.entries[k].error, "");
+    EXPECT_NEAR(sheet.entries[k].exposure, exposures[k], 1e-5);
+    const int x = k_sheet_gap_px + static_cast<int>(k) % sheet.columns * (16 + k_sheet_gap_px) + 3;
+    const int y = k_sheet_gap_px + static_cast<int>(k) / sheet.columns * (16 + k_sheet_gap_px) + 11;
+    const std::size_t at = 3 * static_cast<std::size_t>(y * sheet.picture.width + x);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(sheet.picture.pixels[at + c], pixels[k][c], 1) << k << ' ' << c;
+  }
+}
+
 TEST(ContactSheet, ShowsAgeingRecipesOnAMaterial) {
   RecipeLibrary library;
   library.add("board", "brick|idtype=wood");

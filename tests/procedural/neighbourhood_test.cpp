@@ -83,8 +83,8 @@ TEST(Neighbourhood, EqualsSumsOverAllTexelsNearby) {
 }
 
 TEST(Neighbourhood, StaysSeamless) {
-  // The same picture, shifted by half of itself.
-  for (const char* radius : {".04", ".2"}) {
+  // The same picture, shifted by half of itself; the largest radius takes blocks of four texels.
+  for (const char* radius : {".04", ".2", ".9"}) {
     const std::string recipe =
         "fbm|seamless=true|scale=.5|bumpfunction=nearmean(main," + std::string(radius) + ")+nearmax(main,.1)";
     const auto one = bump_of(recipe, 64), other = bump_of(recipe + "|du=1|dv=1", 64);
@@ -92,6 +92,17 @@ TEST(Neighbourhood, StaysSeamless) {
       for (int x = 0; x < 64; ++x)
         ASSERT_NEAR(at(one, 64, x, y), at(other, 64, (x + 32) % 64, (y + 32) % 64), 1e-6) << radius;
   }
+}
+
+TEST(Neighbourhood, TheMeanOfASlantedPlaneIsThePlaneInAPictureThatIsNotSquare) {
+  // 21 rows make 11 blocks of two, or a little less.
+  RenderOptions render;
+  render.width = 48, render.height = 21, render.channels = k_bump;
+  const std::vector<float> mean =
+      render_texture(compile_texture("base|bumpfunction=nearmean(x+3*y,.2)", {}), render).values[Channel::bump];
+  for (int y = 10; y < 12; ++y)
+    for (int x = 12; x < 36; ++x)
+      EXPECT_NEAR(at(mean, 48, x, y), (x + 0.5) / 21 + 3 * (y + 0.5) / 21, 0.01) << x << ' ' << y;
 }
 
 TEST(Neighbourhood, LayersReadWhatTheLayersBelowGive) {

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
+#include <utility>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/vec.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "procedural/examples.hpp"
 
@@ -36,11 +39,26 @@ TEST(Formula, FollowsTheRulesOfArithmetic) {
   EXPECT_FLOAT_EQ(value("dist(.3,.3)"), 0.4F);
   EXPECT_FLOAT_EQ(value("linedist(0,0,1,0)"), 0.7F);
   EXPECT_FLOAT_EQ(value("getgreen(hsv(1/3,1,.5))"), 0.5F);
+  EXPECT_FLOAT_EQ(value("linedist(0,0,.1,0)"), std::hypot(0.2F, 0.7F));
+  EXPECT_FLOAT_EQ(value("linedist(.5,0,.9,0)"), std::hypot(0.2F, 0.7F));
+  EXPECT_FLOAT_EQ(value("ovaldist(.1,.3,.5,.2)"), std::hypot(0.4F, 2.0F));
   EXPECT_FLOAT_EQ(value("gethsvhue(<0,1,0>)"), 1 / 3.0F);
+  EXPECT_FLOAT_EQ(value("gethsvhue(<.8,.2,.5>)"), 5.5F / 6);
+  EXPECT_FLOAT_EQ(value("gethsvhue(<.2,.8,.5>)"), 2.5F / 6);
+  EXPECT_FLOAT_EQ(value("gethsvhue(<.2,.5,.8>)"), 3.5F / 6);
   EXPECT_FLOAT_EQ(value("bias(.5,x)"), 0.3F);
   EXPECT_FLOAT_EQ(value("gain(.5,x)"), 0.3F);
   EXPECT_FLOAT_EQ(value("pulse(.2,.4,x)"), 1);
   EXPECT_FLOAT_EQ(value("huedist(.9)*0+interpolate(2,4,.25)"), 2.5F);
+}
+
+TEST(Formula, APartOfAnOctaveIsThatPartOfIt) {
+  for (const std::string head :
+       {"turbulence2d(x,y,", "absturbulence2d(x,y,", "turbulence3d(x,y,.4,", "turbulence(x,"}) {
+    const auto of = [&](const char* octaves) { return value(head + octaves + ")", 3.3, 5.7); };
+    ASSERT_NE(of("3"), of("2")) << head;
+    EXPECT_NEAR(of("2.25"), of("2") + 0.25F * (of("3") - of("2")), 1e-6) << head;
+  }
 }
 
 TEST(Formula, HasAValueWhereMathematicsHasNone) {
@@ -155,15 +173,152 @@ TEST(Seamless, EveryTypeIsBitEqualAcrossBordersAndHasNoStepThere) {
     const std::string recipe = test::example_of(type.name) + "|seamless=true";
     EXPECT_EQ(main_at(recipe, inner_x, inner_y), main_at(recipe, outer_x, outer_y)) << recipe;
   }
-  // Continuous types: what lies a hair before the border equals the border.
-  for (const char* type :
-       {"noise", "fbm", "turbulence", "voronoi", "voronoi|func=f2-f1", "marble", "wood", "voronoiseamless"}) {
-    std::vector<double> at(64, 0), before(64, 1 - 1e-9), y;
-    for (int i = 0; i < 64; ++i) y.push_back((i + 0.5) / 64);
-    const auto a = main_at(std::string(type) + "|seamless=true", at, y),
-               b = main_at(std::string(type) + "|seamless=true", before, y);
-    for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(a[i], b[i], 1e-4) << type;
+}
+
+TEST(Seamless, EveryCopyIsTheSame) {
+  std::vector<double> x, y, right, up, down;
+  for (int i = 0; i < 64; ++i) {
+    x.push_back((i + 0.5) / 64), y.push_back((13 * i % 64 + 0.5) / 64);
+    right.push_back(x.back() + 2), up.push_back(y.back() - 3), down.push_back(y.back() + 2);
   }
+  for (const TypeInfo& type : texture_types())
+    for (const char* tile : {"", "|sx=.5|sy=.33333333333333333"}) {
+      const std::string recipe = test::example_of(type.name) + "|seamless=true" + tile;
+      const auto here = main_at(recipe, x, y);
+      for (const auto& [u, v] : {std::pair(right, y), std::pair(x, up), std::pair(x, down), std::pair(right, down)}) {
+        const auto there = main_at(recipe, u, v);
+        for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], 1e-5) << recipe << ' ' << i;
+      }
+    }
+}
+
+TEST(Seamless, AChequerBoardAlternatesAcrossBordersOfOddTiles) {
+  const std::vector<double> along = {0.01, 0.3, 0.7}, first(3, 1e-6), last(3, 1 - 1e-6);
+  for (const char* tile : {"sx=1", "sx=.66666666666666667|sy=.4", "sx=.4|sy=.66666666666666667"})
+    for (const char* type : {"checker", "checker3d"}) {
+      const std::string recipe = std::string(type) + "|seamless=true|" + tile;
+      const auto left = main_at(recipe, first, along), right = main_at(recipe, last, along),
+                 top = main_at(recipe, along, first), bottom = main_at(recipe, along, last);
+      for (std::size_t i = 0; i < along.size(); ++i) {
+        EXPECT_EQ(left[i], 1 - right[i]) << recipe;
+        EXPECT_EQ(top[i], 1 - bottom[i]) << recipe;
+      }
+    }
+}
+
+TEST(Solid, AChequerBoardHasCubes) {
+  std::vector<double> any;
+  std::vector<float> positions, expected;
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i) {
+        for (const int c : {i, j, k}) positions.push_back(static_cast<float>(0.25 * (c + 0.5)));
+        expected.push_back(static_cast<float>((i + j + k) % 2));
+        any.push_back(0.1);
+      }
+  const auto found =
+      evaluate_texture(compile_texture("checker3d", {}), {any, any, {}, positions, {}, {}}, k_main, 0).channels[0];
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Brick, CoursesAlternateAcrossTheBorderOfATile) {
+  // Where a joint between two bricks lies, in bricks from the left border.
+  const auto joint = [](double y) {
+    std::vector<double> x, rows(400, y);
+    for (int i = 0; i < 400; ++i) x.push_back((i + 0.5) / 400);
+    const auto id = main_at("brick|seamless=true|returnid=true|switching=true|tiling=true|rows=3|columns=4", x, rows);
+    std::size_t i = 1;
+    while (i + 1 < id.size() && id[i] == id[i - 1]) ++i;
+    return std::fmod(4.0 * static_cast<double>(i) / 400, 1.0);
+  };
+  EXPECT_NEAR(std::abs(joint(1e-6) - joint(1 - 1e-6)), 0.5, 0.02);
+}
+
+TEST(Seamless, WhatLiesAHairBeforeABorderIsWhatLiesOnIt) {
+  const std::vector<double> at(64, 0), before(64, 1 - 1e-9);
+  std::vector<double> along;
+  for (int i = 0; i < 64; ++i) along.push_back((i + 0.5) / 64);
+  for (const char* type : {"noise", "fbm", "turbulence", "voronoi", "voronoi|func=f2-f1", "marble", "wood",
+                           "voronoiseamless", "base|mainfunction=noise2d(x*8,y*8)"})
+    for (const char* tile : {"", "|sx=.5|sy=.33333333333333333", "|sx=.25|sy=.2"}) {
+      if (std::string_view(type).starts_with("base") && *tile) continue;  // Its formula fits the square only.
+      const std::string recipe = std::string(type) + "|seamless=true" + tile;
+      const auto left = main_at(recipe, at, along), right = main_at(recipe, before, along),
+                 top = main_at(recipe, along, at), bottom = main_at(recipe, along, before);
+      for (std::size_t i = 0; i < 64; ++i) {
+        EXPECT_NEAR(left[i], right[i], 1e-4) << recipe << " at y = " << along[i];
+        EXPECT_NEAR(top[i], bottom[i], 1e-4) << recipe << " at x = " << along[i];
+      }
+    }
+}
+
+TEST(Seamless, NoiseHasNoStepWithinATile) {
+  // Where the lattice begins anew lies within the tile.
+  constexpr int k_steps = 8192;
+  constexpr float k_most = 0.02F;  // Smooth noise of these octaves changes by a fifth of that.
+  std::vector<double> along, across(k_steps, 0.31);
+  for (int i = 0; i < k_steps; ++i) along.push_back((i + 0.5) / k_steps);
+  for (const char* type : {"noise", "fbm|octaves=2|zvalue=.3", "fbm|octaves=2", "turbulence|octaves=2"})
+    for (const char* tile : {"", "|sx=.5|sy=.33333333333333333"}) {
+      const std::string recipe = std::string(type) + "|seamless=true" + tile;
+      const auto in_x = main_at(recipe, along, across), in_y = main_at(recipe, across, along);
+      for (std::size_t i = 1; i < in_x.size(); ++i) {
+        ASSERT_NEAR(in_x[i], in_x[i - 1], k_most) << recipe << " at x = " << along[i];
+        ASSERT_NEAR(in_y[i], in_y[i - 1], k_most) << recipe << " at y = " << along[i];
+      }
+    }
+}
+
+/// Where the only point of a cell of "voronoi|densityfunc=1|smooth=1" lies, in cells from the cell's corner, when it is
+/// not farther than 0.3 cells from the middle.
+Vec2 point_of_cell(const std::string& recipe, int column, int row) {
+  constexpr int k_side = 65;
+  constexpr double k_cells = 4;  // Of a unit square.
+  std::vector<double> x, y;
+  std::vector<Vec2> at;
+  for (int j = 0; j < k_side; ++j)
+    for (int i = 0; i < k_side; ++i) {
+      at.push_back({0.2 + 0.6 * i / (k_side - 1), 0.2 + 0.6 * j / (k_side - 1)});
+      x.push_back((column + at.back().x) / k_cells), y.push_back((row + at.back().y) / k_cells);
+    }
+  const std::vector<float> distance = main_at("voronoi|densityfunc=1|smooth=1|" + recipe, x, y);
+  return at[static_cast<std::size_t>(std::min_element(distance.begin(), distance.end()) - distance.begin())];
+}
+
+TEST(Voronoi, CellsAreDisplacedAsTheModeSays) {
+  constexpr double k_near = 0.006;
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 2; ++column) {
+      const double odd_row = row, odd_column = column, chequer = row ^ column;
+      const Vec2 shifts[] = {{0, 0}, {odd_row, 0}, {0, odd_column}, {odd_row, odd_column}, {chequer, 0}, {0, chequer}};
+      for (int mode = 0; mode < 6; ++mode) {
+        const Vec2 point = point_of_cell("displace=.25|displacemode=" + std::to_string(mode), column, row);
+        EXPECT_NEAR(point.x, 0.5 + 0.25 * shifts[mode].x, k_near)
+            << "mode " << mode << ", cell " << column << ' ' << row;
+        EXPECT_NEAR(point.y, 0.5 + 0.25 * shifts[mode].y, k_near)
+            << "mode " << mode << ", cell " << column << ' ' << row;
+      }
+    }
+}
+
+TEST(Voronoi, ARandomDisplacementIsAnotherAlongYThanAlongX) {
+  double apart = 0;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      const Vec2 point = point_of_cell("displace=.5|displacemode=6", column, row);
+      EXPECT_LE(std::max(std::abs(point.x - 0.5), std::abs(point.y - 0.5)), 0.27);
+      apart = std::max(apart, std::abs(point.x - point.y));
+    }
+  EXPECT_GT(apart, 0.15);
+}
+
+TEST(Voronoi, AnOctaveWeighsAsMuchLessAsItsCellsAreSmaller) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 64; ++i) x.push_back(0.1 + i / 40.0), y.push_back(0.7 - i / 90.0);
+  for (const auto& [plain, weighted] : {std::pair("octaves=3", "octaves=3|weights=1,.5,.25"),
+                                        std::pair("octaves=2|lacunarity=4", "octaves=2|lacunarity=4|weights=1,.25")})
+    EXPECT_EQ(main_at(std::string("voronoi|") + plain, x, y), main_at(std::string("voronoi|") + weighted, x, y));
+  EXPECT_NE(main_at("voronoi|octaves=2", x, y), main_at("voronoi|octaves=2|weights=1,1", x, y));
 }
 
 TEST(Multi, BlendsAsTheRulesSay) {

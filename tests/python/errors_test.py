@@ -58,6 +58,8 @@ class ErrorsTest(unittest.TestCase):
             papilla.repair([1, 2, 3])
         with self.assertRaisesRegex(papilla.UsageError, r"RepairOptions.max_passes: needs int, got str"):
             papilla.repair(mesh, max_passes="many")
+        with self.assertRaisesRegex(papilla.UsageError, r"RepairOptions.max_passes: needs an integer from 0 to 18446744073709551615, got 1180591620717411303424"):
+            papilla.repair(mesh, max_passes=2**70)
         with self.assertRaisesRegex(papilla.UsageError, r"TriangleMesh.positions: needs an array of shape \(n, 3\), got \(9, 2\)"):
             mesh.positions = self.V[:, :2]
         with self.assertRaisesRegex(papilla.UsageError, r"TriangleMesh.triangles: needs int32, got float64"):

@@ -6,6 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { folder as made, launch, openUrl, text } from '../page/browser.mjs';
+import { allShown } from './page.mjs';
 import { end, start } from './studio.mjs';
 
 const [papilla, data, folder] = process.argv.slice(2);
@@ -20,8 +21,17 @@ const studio = await start(papilla, ['cockpit.step', '-m', 'cockpit.materials.js
 try {
   const { page, complaints } = await openUrl(browser, studio.url);
   const own = complaints.length;
-  const all = () => page.waitForFunction(() => globalThis.studio.state?.surfaces.length > 0 && globalThis.studio.state.surfaces.every((s) => globalThis.studio.shown.get(globalThis.studio.keyOf(s))?.name === s.name));
+  const all = () => allShown(page);
   await all();
+  // News while surfaces are fetched: what an older state wanted does not take the place of what is made.
+  const missed = await page.evaluate(async () => {
+    const { studio } = globalThis, { state } = studio, news = (ready) => studio.take({ ...state, surfaces: state.surfaces.map((s) => ({ ...s, ready })) });
+    studio.shown.clear();
+    studio.made.clear();
+    await Promise.all([news(false), news(true)]);
+    return studio.state.surfaces.filter((s) => studio.shown.get(studio.keyOf(s))?.name !== s.name).map(({ label }) => label);
+  });
+  assert.deepEqual(missed, []);
   await page.waitForTimeout(500);
   await page.screenshot({ path: join(pictures, 'opened.png') });
   const tree = page.locator('#tree');
@@ -42,11 +52,14 @@ try {
   }, DASH);
   const before = await lookOf();
   assert.equal(before.hasRelief, false);
-  const dropped = Date.now();
+  await page.evaluate(() => document.addEventListener('drop', () => { globalThis.dropped = performance.now(); }, { capture: true, once: true }));
   await leather.dragTo(dash);
-  await page.waitForFunction((name) => globalThis.studio.state.surfaces.find((s) => s.label === name).material, DASH);
+  const seen = await page.waitForFunction(([label, material]) => {
+    const { studio } = globalThis, surface = studio.state.surfaces.find((s) => s.label === label), shown = studio.shown.get(studio.keyOf(surface));
+    return surface.material === material && shown?.name === surface.name && { page: performance.now() - globalThis.dropped, server: 1000 * shown.data.seconds };
+  }, [DASH, LEATHER]).then((found) => found.jsonValue());
+  console.log(`grain on the dash ${Math.round(seen.page)} ms after the drop, of which ${Math.round(seen.server)} ms of the server`);
   await all();
-  console.log(`grain on the dash after ${Date.now() - dropped} ms, of which ${await page.evaluate((name) => Math.round(1000 * [...globalThis.studio.shown.values()].find((s) => s.data?.label === name).data.seconds), DASH)} ms of the server`);
   const after = await lookOf();
   assert.equal(after.material, LEATHER);
   assert.ok(after.hasRelief);

@@ -459,6 +459,9 @@ class DeformationFit {
       }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    // CHOLMOD's four threads wait for each other by spinning, many times a factorization: on fewer processors for
+    // minutes.
+    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     options.max_num_iterations = 3;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;

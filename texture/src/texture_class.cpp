@@ -43,16 +43,15 @@ bool is_homogeneous(const std::vector<Moments>& blocks, const Moments& whole) {
 }
 
 TextureClass class_of(double coherence, double explained_variance, double stripes) {
-  constexpr double k_strong = 0.5, k_composite = 0.15;
   TextureClass result;
   result.strongly_ordered = std::clamp(std::max(explained_variance, stripes), 0.0, 1.0);
   result.weakly_ordered = (1 - result.strongly_ordered) * coherence;
   result.disordered = 1 - result.strongly_ordered - result.weakly_ordered;
-  if (explained_variance < k_strong && stripes >= k_strong)
+  if (explained_variance < k_strong_share && stripes >= k_strong_share)
     result.kind = TextureKind::strongly_ordered_nonsymmetric;
-  else if (result.strongly_ordered >= k_strong)
+  else if (result.strongly_ordered >= k_strong_share)
     result.kind = TextureKind::strongly_ordered_symmetric;
-  else if (result.strongly_ordered >= k_composite)
+  else if (result.strongly_ordered >= k_composite_share)
     result.kind = TextureKind::composite;
   else if (coherence >= k_directional_coherence)
     result.kind = TextureKind::weakly_ordered;

@@ -28,15 +28,21 @@ std::string_view token_of(std::string_view query) {
   return {};
 }
 
-std::array<std::string, 3> hosts_of(int port) {
-  const std::string suffix = port == 80 ? "" : ":" + std::to_string(port);  // Browsers leave the usual port out.
-  return {"127.0.0.1" + suffix, "localhost" + suffix, "[::1]" + suffix};
+std::vector<std::string> hosts_of(int port, const ServedNames& names) {
+  const int usual = names.scheme == "https" ? 443 : 80;  // Browsers leave it out.
+  std::vector<std::string> hosts = names.hosts;
+  if (port != usual)
+    for (std::string& host : hosts) host += ":" + std::to_string(port);
+  return hosts;
 }
 
 }  // namespace
 
-Admission::Admission(int port, std::string token, int page_port)
-    : token_(std::move(token)), hosts_(hosts_of(port)), page_hosts_(hosts_of(page_port != 0 ? page_port : port)) {}
+Admission::Admission(int port, std::string token, int page_port, const ServedNames& names)
+    : token_(std::move(token)),
+      scheme_(names.scheme),
+      hosts_(hosts_of(port, names)),
+      page_hosts_(hosts_of(page_port != 0 ? page_port : port, names)) {}
 
 bool Admission::admits(const RequestHead& request) const {
   const std::string_view target = request.target;
@@ -46,7 +52,7 @@ bool Admission::admits(const RequestHead& request) const {
   if (request.hosts.size() != 1) return false;
   const auto host = std::find(hosts_.begin(), hosts_.end(), request.hosts.front());
   if (host == hosts_.end()) return false;
-  const std::string page = "http://" + page_hosts_[static_cast<std::size_t>(host - hosts_.begin())];
+  const std::string page = scheme_ + "://" + page_hosts_[static_cast<std::size_t>(host - hosts_.begin())];
   return known &&
          std::all_of(request.origins.begin(), request.origins.end(),
                      [&](const auto& value) { return value == page; }) &&

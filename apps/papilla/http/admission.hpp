@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -13,22 +12,28 @@ struct RequestHead {
   std::vector<std::string> hosts, origins, referers;
 };
 
-/// Whom a server on 127.0.0.1 serves: who has its token, which stands in the query, names it by one Host field, and
-/// comes from one of its pages where Origin and Referer are given.
+/// How browsers reach a server.
+struct ServedNames {
+  std::string scheme = "http";
+  std::vector<std::string> hosts = {"127.0.0.1", "localhost", "[::1]"};  ///< Without port.
+};
+
+/// Whom a server serves: who has its token, which stands in the query, names it by one Host field that is one of its
+/// names, and comes from one of its pages where Origin and Referer are given.
 class Admission {
  public:
-  /// @param port of this server. @param page_port of the server whose pages ask; 0: the same.
-  Admission(int port, std::string token, int page_port = 0);
+  /// @param port of this server. @param page_port of the server whose pages ask; 0: the same. @pre a host or more.
+  Admission(int port, std::string token, int page_port = 0, const ServedNames& names = {});
 
   bool admits(const RequestHead& request) const;
 
-  /// http://127.0.0.1:PORT/?token=TOKEN
-  std::string url() const { return "http://" + hosts_[0] + "/?token=" + token_; }
+  /// http://127.0.0.1:PORT/?token=TOKEN; of the first host.
+  std::string url() const { return scheme_ + "://" + hosts_[0] + "/?token=" + token_; }
   const std::string& token() const noexcept { return token_; }
 
  private:
-  std::string token_;
-  std::array<std::string, 3> hosts_, page_hosts_;
+  std::string token_, scheme_;
+  std::vector<std::string> hosts_, page_hosts_;
 };
 
 /// The Content-Security-Policy of pages: nothing from elsewhere, in no frame.

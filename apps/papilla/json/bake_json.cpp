@@ -34,6 +34,26 @@ Json channels_json(const std::optional<MapsTag>& maps) {
   return json;
 }
 
+Json total_json(const std::vector<BakedSurface>& surfaces) {
+  std::vector<const DistortionReport*> reports;
+  for (const BakedSurface& surface : surfaces) reports.push_back(&surface.distortion);
+  const DistortionTotals total = total_distortion(reports);
+  Json json = {{"triangles", total.triangles},
+               {"charts", total.charts},
+               {"flipped", total.flipped},
+               {"overlapping_within_charts", total.overlapping_within_charts},
+               {"area_mm2", total.area_mm2}};
+  if (!total.has_overlap) json.erase("overlapping_within_charts");
+  if (!(total.area_mm2 > 0)) return json;
+  json["symmetric_dirichlet"] = {{"mean", total.symmetric_dirichlet_mean}};
+  json["angle_error_deg"] = {{"mean", total.angle_error_deg_mean}};
+  json["stretch_l2"] = total.stretch_l2;
+  json["stretch_linf"] = total.stretch_linf;
+  return json;
+}
+
+}  // namespace
+
 Json grain_json(const std::string& name, const Grain& grain) {
   const GrainHeight& h = grain.height;
   Json height = {{"method", h.method}, {"reason", h.reason}};
@@ -55,6 +75,7 @@ Json grain_json(const std::string& name, const Grain& grain) {
                  {"width", grain.photograph.width},
                  {"height", grain.photograph.height},
                  {"size_mm", {grain.size_mm[0], grain.size_mm[1]}},
+                 {"shows_mm", {grain.photograph_mm.x, grain.photograph_mm.y}},
                  {"tiles", grain.tiles},
                  {"monochrome", grain.monochrome},
                  {"shown", grain.picture.has_value()}}},
@@ -78,26 +99,6 @@ Json grain_json(const std::string& name, const Grain& grain) {
   json["plan"] = steps_json(grain.plan);
   return json;
 }
-
-Json total_json(const std::vector<BakedSurface>& surfaces) {
-  std::vector<const DistortionReport*> reports;
-  for (const BakedSurface& surface : surfaces) reports.push_back(&surface.distortion);
-  const DistortionTotals total = total_distortion(reports);
-  Json json = {{"triangles", total.triangles},
-               {"charts", total.charts},
-               {"flipped", total.flipped},
-               {"overlapping_within_charts", total.overlapping_within_charts},
-               {"area_mm2", total.area_mm2}};
-  if (!total.has_overlap) json.erase("overlapping_within_charts");
-  if (!(total.area_mm2 > 0)) return json;
-  json["symmetric_dirichlet"] = {{"mean", total.symmetric_dirichlet_mean}};
-  json["angle_error_deg"] = {{"mean", total.angle_error_deg_mean}};
-  json["stretch_l2"] = total.stretch_l2;
-  json["stretch_linf"] = total.stretch_linf;
-  return json;
-}
-
-}  // namespace
 
 Json plan_json(const std::vector<PartSurface>& surfaces) {
   Json stages = Json::array();

@@ -80,6 +80,10 @@ Json distortion_json(const DistortionReport& report);
 Json worst_chart_json(const Scene& scene, const SceneDistortion& distortion);
 Json histogram_json(const DistortionReport& report);
 
+/// What a report says of a grain: {name, picture{}, class{}, lattice, group, period_mm[], height{}, roughness{},
+/// maps[], plan[]}.
+Json grain_json(const std::string& name, const Grain& grain);
+
 /// {part, material, stage, run, reason} a line.
 Json plan_json(const std::vector<PartSurface>& surfaces);
 /// {material, steps[] {step, run, reason}, problem} a grain.

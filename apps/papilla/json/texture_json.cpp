@@ -406,6 +406,7 @@ Json sheet_json(const ContactSheet& sheet) {
                                {"max", e.high},
                                {"mean", e.mean},
                                {"seam", e.seam},
+                               {"exposure", e.exposure},
                                {"error", e.error}});
   return json;
 }

@@ -17,6 +17,23 @@ Json error_json(const Trace& trace) {
   return {{"start", trace.front().error}, {"end", trace.back().error}};
 }
 
+/// Null without a bound.
+Json bound_json(const std::optional<BoundReport>& report) {
+  if (!report) return {};
+  Json trace = Json::array();
+  for (const SeamSample& s : report->trace)
+    trace.push_back({{"seconds", s.seconds},
+                     {"seam_mm", s.seam_mm},
+                     {"seam_cost_mm", s.seam_cost_mm},
+                     {"distortion", s.distortion}});
+  return {{"wanted", distortion_bound_name(report->bound)},
+          {"kept", report->kept},
+          {"distortion", report->distortion},
+          {"seam_mm", report->seam_mm},
+          {"seam_cost_mm", report->seam_cost_mm},
+          {"trace", std::move(trace)}};
+}
+
 Json parts_json(const UnwrapResult& result) {
   Json parts = Json::array();
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
@@ -30,6 +47,7 @@ Json parts_json(const UnwrapResult& result) {
                      {"charts", part.flattening.charts.count},
                      {"choices", choices_json(part.choices)},
                      {"error", error_json(part.flattening.trace)},
+                     {"bound", bound_json(part.bound)},
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
                      {"grain_continued_mm", part.grain_continued_mm},
                      {"seam_visibility", seams_json(part.seams)},

@@ -7,6 +7,7 @@
 // that shrinks and grows with every chart of a part would be cleared page by page each time. Cold arrays lie in a file
 // once memory is short.
 #include <malloc.h>
+#include <pthread.h>
 #include <sys/mman.h>
 
 #include <array>
@@ -46,6 +47,8 @@ class FreedBlocks {
     bytes_ += size;
   }
 
+  std::mutex& mutex() noexcept { return mutex_; }
+
  private:
   static constexpr std::size_t k_most_bytes = std::size_t{64} << 20;
 
@@ -67,6 +70,10 @@ class FreedBlocks {
 };
 
 constinit FreedBlocks freed_blocks;
+
+/// Nobody is in the middle of it while the process is forked: a child has no other thread that would leave it.
+const bool forks_between = ::pthread_atfork([] { freed_blocks.mutex().lock(); }, [] { freed_blocks.mutex().unlock(); },
+                                            [] { freed_blocks.mutex().unlock(); }) == 0;
 
 constexpr std::size_t k_mib = std::size_t{1} << 20;
 constinit papilla::app::SpilledMemory spilled_memory({.begin_bytes = 128 * k_mib,

@@ -72,7 +72,7 @@ bool SpilledMemory::open_file() noexcept {
   base_ = static_cast<std::byte*>(reserved);
   limit_ = limits_.resident_bytes;
   spilled = this;
-  if (::pthread_atfork(nullptr, nullptr, &after_fork) != 0) return false;
+  if (::pthread_atfork(&before_fork, &after_fork_in_parent, &after_fork_in_child) != 0) return false;
   try {
     std::thread([this] { watch(); }).detach();
   } catch (...) {
@@ -197,8 +197,14 @@ void SpilledMemory::make_private() noexcept {
   ::munmap(at(used_), k_reserved - reserved_);
 }
 
-void SpilledMemory::after_fork() noexcept {
-  if (spilled) spilled->make_private();
+/// Nobody is in the middle of a change while the process is forked.
+void SpilledMemory::before_fork() noexcept { spilled->mutex_.lock(); }
+
+void SpilledMemory::after_fork_in_parent() noexcept { spilled->mutex_.unlock(); }
+
+void SpilledMemory::after_fork_in_child() noexcept {
+  spilled->make_private();
+  spilled->mutex_.unlock();
 }
 
 }  // namespace papilla::app

@@ -76,7 +76,9 @@ class SpilledMemory {
   void watch() noexcept;
   void trim() noexcept;
   void make_private() noexcept;
-  static void after_fork() noexcept;
+  static void before_fork() noexcept;
+  static void after_fork_in_parent() noexcept;
+  static void after_fork_in_child() noexcept;
 
   SpillLimits limits_;
   std::atomic<bool> active_{false}, never_{false};

@@ -61,7 +61,16 @@ MethodOptions method_options(const UnwrapOption& options) {
     if (const std::string obstacle = conformal_obstacle(levy, !method.iso_lines.empty()); !obstacle.empty())
       throw UsageError("--coupling conformal: " + obstacle);
   if (!options.direction.empty()) method.planar.direction = parse_vector("--direction", options.direction);
-  if (!options.eye.empty()) method.intermediate.eye = method.environment.eye = parse_vector("--eye", options.eye);
+  if (!options.eye.empty())
+    method.intermediate.eye = method.environment.eye = method.segmentation.eye = parse_vector("--eye", options.eye);
+  if (!options.max_distortion.empty()) {
+    method.max_distortion = distortion_bound(options.max_distortion);
+    if (!method.max_distortion)
+      throw UsageError("--max-distortion '" + options.max_distortion + "': expected D or pNN=D with D at least 4");
+    if (!method.choose_seam_cost) throw UsageError("--seam-cost: --max-distortion finds it, give one of the two");
+    if (method.charts != ChartSource::automatic)
+      throw UsageError("--charts " + chart_source_name(method.charts) + ": --max-distortion makes charts of its own");
+  }
   return method;
 }
 
@@ -140,7 +149,14 @@ void add_method_options(CLI::App& verb, UnwrapOption& options) {
   add("direction", options.direction, "Of planar: outward direction; default: the dominant normal")->type_name("X,Y,Z");
   choose("environment_map", m.environment.map, environment_maps(),
          "Of environment: sphere (default): a mirroring ball; equal-area: a cylindrical panorama of the surroundings");
-  add("eye", options.eye, "Of environment and of reflected-ray; default: in front of each part")->type_name("X,Y,Z");
+  add("eye", options.eye,
+      "Of environment and of reflected-ray; default: in front of each part. Of auto and best: seams that can't be seen "
+      "from there count as hidden")
+      ->type_name("X,Y,Z");
+  add("max_distortion", options.max_distortion,
+      "Of auto and best: the shortest seams with which the mean symmetric Dirichlet energy of a part, 4 without "
+      "distortion, is at most D; pNN: with which so many per cent of the area have at most D")
+      ->type_name("D|pNN=D");
 }
 
 }  // namespace
@@ -236,6 +252,9 @@ void UnwrapOption::add_to(CLI::App& verb) {
           "What seams cost against distortion: 0.01 cuts generously, 0.5 hardly ever; default: 0.03, and on parts of "
           "up to 50,000 triangles 0.01 or 0.1 where that is the better bargain")
       ->check(in_range(0.0, 1e6));
+  verb.add_flag_callback(
+      "--plain-seams", [&method = unwrap.method] { method.segmentation.weigh_seams = false; },
+      "Seams count by their length alone, however visible they are");
   add_choice<UvLayout>(verb, "--layout", unwrap.layout, {{"atlas", UvLayout::atlas}, {"tile", UvLayout::tile}},
                        "atlas (default): no two charts overlap; tile: the grain goes on over seams");
   verb.add_option("--tile", tile, "Size of the grain's repeat: charts keep its phase")

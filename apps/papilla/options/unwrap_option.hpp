@@ -17,6 +17,7 @@ void add_effort(CLI::App& verb, UnwrapEffort& effort);
 struct UnwrapOption {
   UnwrapOptions unwrap;
   std::string solver, direction, eye;  ///< Empty: the method's own.
+  std::string max_distortion;          ///< Empty: none.
   std::vector<std::string> grains;
   int texture_px = 0;  ///< 0: no second set of uv.
   double gutter_px = 4;

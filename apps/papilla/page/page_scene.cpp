@@ -8,10 +8,10 @@
 #include <atomic>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 
 #include "json/scene_json.hpp"
+#include "page/page_material.hpp"
 #include "page/page_mesh.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
@@ -99,26 +99,6 @@ std::vector<ShownPart> show_parts(const Scene& scene, double keep, const Progres
   return shown;
 }
 
-/// Pictures that browsers show.
-bool is_shown_by_browsers(const EncodedImage& image) {
-  static const std::set<std::string> types = {"image/png",  "image/jpeg", "image/webp",
-                                              "image/avif", "image/gif",  "image/bmp"};
-  return types.contains(image.mime_type) && !image.bytes.empty();
-}
-
-/// The picture of a texture that browsers show, if there is one: not KTX2, and of the two channels that a mesh has.
-Json texture_json(const Scene& scene, const std::optional<TextureReference>& reference) {
-  if (!reference || reference->texture >= scene.textures.size() || reference->tex_coord > 1) return nullptr;
-  const Texture& texture = scene.textures[reference->texture];
-  if (!texture.image || *texture.image >= scene.images.size()) return nullptr;
-  if (!is_shown_by_browsers(scene.images[*texture.image])) return nullptr;
-  const UvTransform transform = reference->transform.value_or(UvTransform{});
-  return {{"image", *texture.image},          {"tex_coord", reference->tex_coord},
-          {"factor", reference->factor},      {"wrap", {texture.wrap_s, texture.wrap_t}},
-          {"offset", pair(transform.offset)}, {"rotation", transform.rotation},
-          {"scale", pair(transform.scale)}};
-}
-
 /// Environments, each once.
 class PageEnvironments {
  public:
@@ -151,27 +131,15 @@ class PageMaterials {
 
  private:
   void add(const Material& material, std::size_t number) {
-    Json json = {{"name", material.name},
-                 {"color", material.base_color},
-                 {"metallic", material.metallic},
-                 {"roughness", material.roughness},
-                 {"emissive", material.emissive},
-                 {"double_sided", material.double_sided},
-                 {"alpha_mode", material.alpha_mode},
-                 {"alpha_cutoff", material.alpha_cutoff},
-                 {"unlit", material.extensions_json.find("\"KHR_materials_unlit\"") != std::string::npos},
-                 {"base_map", texture_json(scene_, material.base_color_texture)},
-                 {"normal_map", texture_json(scene_, material.normal_texture)},
-                 {"environment", environments_.number_of(environment_of(material))},
-                 {"shine_map", texture_json(scene_, material.metallic_roughness_texture)},
-                 {"haptic", nullptr},
-                 {"height", nullptr}};
+    Json json = look_json(scene_, material);
+    json["unlit"] = material.extensions_json.find("\"KHR_materials_unlit\"") != std::string::npos;
+    json["environment"] = environments_.number_of(environment_of(material));
+    json["haptic"] = nullptr;
+    json["height"] = nullptr;
     std::vector<HapticWarning> warnings = material.haptic_warnings;
     if (const auto& tag = material.haptic) {
-      MaterialTag shown = *tag;  // The map itself travels with the heights.
-      for (PlacedPicture* picture : pictures_of(shown)) picture->uri.clear();
       if (tag->height) json["height"] = height(*tag->height, number, warnings);
-      json["haptic"] = Json::parse(to_json(shown));
+      json["haptic"] = tag_json(*tag);
     }
     for (const auto* map : shown_maps(material))
       if (*map && texture_json(scene_, *map).is_null())

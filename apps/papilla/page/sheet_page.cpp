@@ -6,6 +6,14 @@
 #include "html_text.hpp"
 
 namespace papilla::app {
+namespace {
+
+/// What a caption says of a tile that is brighter than its recipe.
+std::string brightened(double exposure) {
+  return exposure >= 1.05 ? fmt::format(" ({:.1f} times as bright)", exposure) : std::string();
+}
+
+}  // namespace
 
 std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file) {
   std::string page =
@@ -24,8 +32,9 @@ std::string sheet_page(const ContactSheet& sheet, const std::string& picture_fil
     const std::string name = html_text(sheet.entries[k].name);
     page += fmt::format(
         "<figure><div class=\"t\" role=\"img\" aria-label=\"{}\" style=\"background-position:-{}px -{}px\"></div>"
-        "<figcaption>{}</figcaption></figure>\n",
-        name, k_sheet_gap_px + column * (side + k_sheet_gap_px), k_sheet_gap_px + row * (side + k_sheet_gap_px), name);
+        "<figcaption>{}{}</figcaption></figure>\n",
+        name, k_sheet_gap_px + column * (side + k_sheet_gap_px), k_sheet_gap_px + row * (side + k_sheet_gap_px), name,
+        brightened(sheet.entries[k].exposure));
   }
   page += "</div>\n";
   page += "<table><tr><th>name<th>recipe<th>rests on<th>height<th>mean<th>seam</tr>\n";

@@ -54,6 +54,17 @@ void check_name(const std::string& name, const std::set<std::string>& extensions
 
 }  // namespace
 
+const std::set<std::string>& scene_extensions() {
+  static const std::set<std::string> names = {".step", ".stp", ".p21", ".iges", ".igs", ".brep", ".brp", ".stl", ".obj",
+                                              ".ply",  ".off", ".glb", ".gltf", ".fbx", ".3mf",  ".dae", ".x3d"};
+  return names;
+}
+
+const std::set<std::string>& picture_extensions() {
+  static const std::set<std::string> names = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".exr", ".bmp"};
+  return names;
+}
+
 StudioFiles::StudioFiles(std::string scene, std::string materials)
     : scene_(std::move(scene)),
       materials_(materials.empty() ? materials_beside(scene_) : std::move(materials)),

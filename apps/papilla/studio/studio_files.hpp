@@ -12,6 +12,10 @@
 
 namespace papilla::app {
 
+/// Of files that a scene can be opened from here, one each, and of pictures: in lower case, with dot.
+const std::set<std::string>& scene_extensions();
+const std::set<std::string>& picture_extensions();
+
 /// The files of a studio: a scene, the MATERIALS.json that is edited, what is kept of it until it is saved, and what
 /// people bring. Names of files stay as they were given, for the command line that is shown.
 class StudioFiles {

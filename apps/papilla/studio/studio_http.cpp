@@ -4,6 +4,7 @@
 #include <httplib.h>
 #include <sys/socket.h>
 
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace papilla::app {
 namespace {
 
 constexpr std::size_t k_threads = 24;
-constexpr int k_timeout_s = 10;
+constexpr int k_read_timeout_s = 10;
+/// A page that draws in software takes nothing of an answer meanwhile; only those who are admitted get long ones.
+constexpr int k_write_timeout_s = 60;
 constexpr std::size_t k_most_upload_bytes = std::size_t{8} << 30;
 constexpr int k_forbidden = 403, k_not_found = 404, k_conflict = 409, k_too_large = 413;
 
@@ -59,45 +62,55 @@ void told(httplib::Response& response, const Work& work) {
 
 }  // namespace
 
-class StudioHttp::Server : public httplib::Server {
+class StudioHttp::Server {
  public:
-  Server() {
-    new_task_queue = [] { return new httplib::ThreadPool(k_threads); };
-    set_keep_alive_max_count(1);  // A body that is refused unread ends its connection.
-    set_read_timeout(k_timeout_s);
-    set_write_timeout(k_timeout_s);
-    set_payload_max_length(k_most_upload_bytes);
-    set_tcp_nodelay(true);
+  explicit Server(const std::optional<TlsFiles>& tls)
+      : http_(tls ? std::make_unique<httplib::SSLServer>(tls->certificate.c_str(), tls->key.c_str())
+                  : std::make_unique<httplib::Server>()) {
+    if (!http_->is_valid()) throw InvalidInput(tls->certificate + ": the server can't use it");
+    http_->new_task_queue = [] { return new httplib::ThreadPool(k_threads); };
+    http_->set_keep_alive_max_count(1);  // A body that is refused unread ends its connection.
+    http_->set_read_timeout(k_read_timeout_s);
+    http_->set_write_timeout(k_write_timeout_s);
+    http_->set_payload_max_length(k_most_upload_bytes);
+    http_->set_tcp_nodelay(true);
     // The library's own choice lets a second program listen on the same port.
-    set_socket_options([](socket_t socket) {
+    http_->set_socket_options([](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
   }
 
+  /// @returns the port; not above 0 where it can't be used.
+  int bind(const char* address, int port) {
+    if (port == 0) return http_->bind_to_any_port(address);
+    return http_->bind_to_port(address, port) ? port : -1;
+  }
+
   void begin(StudioRoutes routes, const Admission& admission, const std::string& connect) {
     routes_ = std::move(routes);
-    set_default_headers({{"Cache-Control", "no-store"},
-                         {"X-Content-Type-Options", "nosniff"},
-                         {"Referrer-Policy", "no-referrer"},
-                         {"Content-Security-Policy", page_policy(connect)},
-                         {"Cross-Origin-Resource-Policy", "same-origin"},
-                         {"Cross-Origin-Opener-Policy", "same-origin"}});
-    set_pre_routing_handler([admission](const httplib::Request& request, httplib::Response& response) {
+    http_->set_default_headers({{"Cache-Control", "no-store"},
+                                {"X-Content-Type-Options", "nosniff"},
+                                {"Referrer-Policy", "no-referrer"},
+                                {"Content-Security-Policy", page_policy(connect)},
+                                {"Cross-Origin-Resource-Policy", "same-origin"},
+                                {"Cross-Origin-Opener-Policy", "same-origin"}});
+    using Handled = httplib::Server::HandlerResponse;
+    http_->set_pre_routing_handler([admission](const httplib::Request& request, httplib::Response& response) {
       if (admission.admits({request.target, values_of(request, "Host"), values_of(request, "Origin"),
                             values_of(request, "Referer")}))
-        return HandlerResponse::Unhandled;
+        return Handled::Unhandled;
       response.status = k_forbidden;
-      return HandlerResponse::Handled;
+      return Handled::Handled;
     });
-    Get(".*", [this](const httplib::Request& request, httplib::Response& response) { get(request, response); });
-    Post(".*", [this](const httplib::Request& request, httplib::Response& response,
-                      const httplib::ContentReader& reader) { post(request, response, reader); });
-    thread_ = std::thread([this] { listen_after_bind(); });
+    http_->Get(".*", [this](const httplib::Request& request, httplib::Response& response) { get(request, response); });
+    http_->Post(".*", [this](const httplib::Request& request, httplib::Response& response,
+                             const httplib::ContentReader& reader) { post(request, response, reader); });
+    thread_ = std::thread([this] { http_->listen_after_bind(); });
   }
 
   void end() {
-    stop();
+    http_->stop();
     if (thread_.joinable()) thread_.join();
   }
 
@@ -140,13 +153,15 @@ class StudioHttp::Server : public httplib::Server {
     told(response, [&] { return found->second(query_of(request), body); });
   }
 
+  std::unique_ptr<httplib::Server> http_;
   StudioRoutes routes_;
   std::thread thread_;
 };
 
-StudioHttp::StudioHttp(int port) : server_(std::make_unique<Server>()) {
-  port_ = port == 0 ? server_->bind_to_any_port("127.0.0.1") : server_->bind_to_port("127.0.0.1", port) ? port : -1;
-  if (port_ <= 0) throw IoError("127.0.0.1:" + std::to_string(port) + ": the port can't be used");
+StudioHttp::StudioHttp(int port, const std::optional<TlsFiles>& tls) : server_(std::make_unique<Server>(tls)) {
+  const char* address = tls ? "0.0.0.0" : "127.0.0.1";
+  port_ = server_->bind(address, port);
+  if (port_ <= 0) throw IoError(std::string(address) + ":" + std::to_string(port) + ": the port can't be used");
 }
 
 StudioHttp::~StudioHttp() { server_->end(); }

@@ -5,11 +5,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "http/admission.hpp"
 #include "http/page_server.hpp"
+#include "studio/tls_files.hpp"
 
 namespace papilla::app {
 
@@ -28,14 +30,15 @@ struct StudioRoutes {
   std::map<std::string, std::function<PageAnswer(const Query&, const BodySource& body)>> uploads;
 };
 
-/// An HTTP server for the studio's pages on 127.0.0.1, by the rules of Admission: 403 and nothing else for everybody
-/// else. Unlike PageServer it takes bodies as they come and lets answers take their time.
+/// An HTTP server for the studio's pages on 127.0.0.1, or an HTTPS server on every address of this machine, by the
+/// rules of Admission: 403 and nothing else for everybody else. Unlike PageServer it takes bodies as they come and lets
+/// answers take their time.
 class StudioHttp {
  public:
   static constexpr std::size_t k_most_body_bytes = std::size_t{1} << 20;
 
-  /// @param port 0 takes any that is free. @throws IoError when the port is taken.
-  explicit StudioHttp(int port);
+  /// @param port 0 takes any that is free. @param tls of the HTTPS server. @throws IoError when the port is taken.
+  explicit StudioHttp(int port, const std::optional<TlsFiles>& tls = {});
   ~StudioHttp();  ///< Ends when all requests have.
   StudioHttp(const StudioHttp&) = delete;
   StudioHttp& operator=(const StudioHttp&) = delete;

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -30,8 +29,17 @@
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/pipeline/studio/parse_materials.hpp"
 #include "papilla/pipeline/studio/studio_document.hpp"
+#include "studio/studio_answers.hpp"
 #include "studio/studio_bake.hpp"
+#include "studio/studio_card.hpp"
+#include "studio/studio_carriers.hpp"
+#include "studio/studio_decals.hpp"
+#include "studio/studio_edit.hpp"
+#include "studio/studio_feel.hpp"
 #include "studio/studio_files.hpp"
+#include "studio/studio_network.hpp"
+#include "studio/studio_recipe.hpp"
+#include "studio/studio_review.hpp"
 #include "studio/studio_socket.hpp"
 #include "studio/studio_surface.hpp"
 #include "studio/studio_worker.hpp"
@@ -44,74 +52,6 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds k_look{50}, k_keep_after{400};
 constexpr std::size_t k_most_edits = 1000;  ///< Of one step.
 
-PageAnswer json_answer(const Json& json) {
-  return {200, "application/json",
-          std::make_shared<const std::string>(json.dump(-1, ' ', false, Json::error_handler_t::replace))};
-}
-
-PageAnswer bytes_answer(const char* type, SharedText bytes) { return {200, type, std::move(bytes)}; }
-
-std::string text_of(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-const std::string& required(const Query& query, const char* name) {
-  const auto found = query.find(name);
-  if (found == query.end()) throw InvalidInput(std::string("the request has no '") + name + "'");
-  return found->second;
-}
-
-std::uint32_t number_of(const Query& query, const char* name) {
-  const std::string& text = required(query, name);
-  if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
-    throw InvalidInput(std::string("'") + name + "' is no number");
-  return static_cast<std::uint32_t>(std::stoul(text));
-}
-
-Json parsed(const std::string& body) {
-  try {
-    return Json::parse(body);
-  } catch (const Json::exception&) {
-    throw InvalidInput("the request is no JSON");
-  }
-}
-
-/// {"kind", "surfaces": [[part, slot], …], "material", "values": {pointer: value}, "title"}
-StudioEdit edit_of(const Json& json, const StudioScene* scene) {
-  static const std::map<std::string, StudioEdit::Kind> kinds = {{"assign", StudioEdit::Kind::assign},
-                                                                {"vary", StudioEdit::Kind::vary},
-                                                                {"set", StudioEdit::Kind::set},
-                                                                {"add", StudioEdit::Kind::add},
-                                                                {"remove", StudioEdit::Kind::remove}};
-  StudioEdit edit;
-  const auto kind = kinds.find(json.at("kind").get<std::string>());
-  if (kind == kinds.end()) throw InvalidInput("there is no such kind of change");
-  edit.kind = kind->second;
-  edit.material = json.value("material", std::string());
-  edit.title = json.value("title", std::string());
-  if (const auto values = json.find("values"); values != json.end())
-    for (const auto& [pointer, value] : values->items()) edit.values[pointer] = value.dump();
-  if (const auto surfaces = json.find("surfaces"); surfaces != json.end())
-    for (const Json& surface : *surfaces) {
-      const auto part = surface.at(0).get<std::uint32_t>(), slot = surface.at(1).get<std::uint32_t>();
-      if (scene == nullptr || part >= scene->scene().parts.size()) throw InvalidInput("there is no such surface");
-      for (SurfaceSelector& selector : scene->selectors(part, slot)) edit.surfaces.push_back(std::move(selector));
-    }
-  return edit;
-}
-
-/// Files that a scene can be opened from here: one each.
-const std::set<std::string>& scene_extensions() {
-  static const std::set<std::string> names = {".step", ".stp", ".p21", ".iges", ".igs", ".brep", ".brp", ".stl", ".obj",
-                                              ".ply",  ".off", ".glb", ".gltf", ".fbx", ".3mf",  ".dae", ".x3d"};
-  return names;
-}
-
-const std::set<std::string>& picture_extensions() {
-  static const std::set<std::string> names = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".exr", ".bmp"};
-  return names;
-}
-
 }  // namespace
 
 /// State and routes. Members that several threads share are guarded by `mutex_`.
@@ -123,10 +63,11 @@ class StudioSession::Studio {
         files_(options.arguments.input, options.arguments.materials),
         bake_options_(options.arguments.options("studio.glb", context).bake),
         read_options_(options.arguments.options("studio.glb", context).read),
-        socket_(std::make_unique<StudioSocket>()),
-        http_(std::make_unique<StudioHttp>(options.port)),
-        admission_(http_->port(), options.token.empty() ? random_token() : options.token),
-        socket_admission_(socket_->port(), admission_.token(), http_->port()),
+        names_(served_names(options.tls)),
+        socket_(std::make_unique<StudioSocket>(options.tls)),
+        http_(std::make_unique<StudioHttp>(options.port, options.tls)),
+        admission_(http_->port(), options.token.empty() ? random_token() : options.token, 0, names_),
+        socket_admission_(socket_->port(), admission_.token(), http_->port(), names_),
         history_(empty_studio_document()) {
     worker_ = std::make_unique<StudioWorker>(StudioWorker::Handlers{
         [this](const StudioSurface& surface, const std::string& name) { told_ready(surface, name); },
@@ -136,24 +77,27 @@ class StudioSession::Studio {
         [this](std::size_t left, const std::string& label) {
           tell({{"event", "working"}, {"left", left}, {"label", label}});
         }});
+    decals_ = std::make_unique<StudioDecals>(*worker_);
+    carriers_ = std::make_unique<StudioCarrierMaker>(*worker_);
+    feel_ = std::make_unique<StudioFeel>(StudioFeel::Handlers{[this] { return made_surfaces(); },
+                                                              [this] { return scene_file(); },
+                                                              [this](const Json& event) { tell(event); }});
     open_document();
     socket_->start({[this](const std::string& target, const std::string& host, const std::string& origin) {
                       // A page always says where it comes from.
                       return !origin.empty() && socket_admission_.admits({target, {host}, {origin}, {}});
                     },
-                    [](const std::string&) {},  // Pages only listen.
+                    [this](const std::string& text) { feel_->message(text); },
                     [this](std::size_t clients) { note_clients(clients); }});
     // Pages are served under each name of this machine, and ask under the same.
-    std::string sockets;
-    for (const char* host : {"127.0.0.1", "localhost"})
-      sockets += (sockets.empty() ? "ws://" : " ws://") + (host + (":" + std::to_string(socket_->port())));
-    http_->start(routes(), admission_, sockets);
+    http_->start(routes(), admission_, socket_sources(names_, socket_->port()));
     keeper_ = std::thread([this] { keep_documents(); });
     if (!files_.scene().empty()) load(files_.scene());
   }
 
   /// Those who ask end first, then those who work, then those who are told.
   ~Studio() {
+    cancel_levels_ = true;
     http_.reset();
     {
       const std::scoped_lock lock(mutex_);
@@ -164,6 +108,9 @@ class StudioSession::Studio {
     if (loader_.joinable()) loader_.join();
     keeper_.join();
     bake_.reset();
+    feel_.reset();
+    carriers_.reset();
+    decals_.reset();
     worker_.reset();
     socket_.reset();
   }
@@ -188,11 +135,17 @@ class StudioSession::Studio {
 
   void tell(const Json& event) { socket_->send(event.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
+  /// A page that came is told so: what was told before that it did not hear.
   void note_clients(std::size_t clients) {
-    const std::scoped_lock lock(clients_mutex_);
-    clients_ = clients;
-    had_client_ = had_client_ || clients > 0;
-    left_at_ = Clock::now();
+    bool is_new = false;
+    {
+      const std::scoped_lock lock(clients_mutex_);
+      is_new = clients > clients_;
+      clients_ = clients;
+      had_client_ = had_client_ || clients > 0;
+      left_at_ = Clock::now();
+    }
+    if (is_new) tell({{"event", "open"}});
   }
 
   bool is_left() {
@@ -232,14 +185,14 @@ class StudioSession::Studio {
     const fs::path path = files_.materials();
     const std::string& library = options_.arguments.material_library;
     if (scene_) return std::make_shared<const StudioPlan>(scene_->plan(document, path, library));
-    return std::make_shared<const StudioPlan>(StudioPlan{parse_materials(document, path, library), {}, {}});
+    return std::make_shared<const StudioPlan>(StudioPlan{parse_materials(document, path, library), {}, {}, {}, {}});
   }
 
   /// @pre locked.
   void show(std::shared_ptr<const StudioPlan> plan) {
     plan_ = std::move(plan);
     ++version_;
-    if (scene_) worker_->want(scene_, plan_);
+    if (scene_) worker_->want(scene_, plan_), decals_->want(scene_, plan_), carriers_->want(scene_, plan_);
     changed_.notify_all();
     tell({{"event", "state"}, {"version", version_}});
   }
@@ -266,16 +219,38 @@ class StudioSession::Studio {
     }
   }
 
-  Json edit(const std::string& body) {
-    const Json json = parsed(body);
-    const std::scoped_lock lock(mutex_);
+  /// The document after the edits of a request. @pre locked.
+  std::string edited(const Json& json) const {
     const Json edits = json.contains("edits") ? json.at("edits") : Json::array({json});
     if (!edits.is_array() || edits.empty() || edits.size() > k_most_edits)
       throw InvalidInput("there is nothing to change");
     std::string document = history_.document();
     for (const Json& one : edits) document = edited_document(document, edit_of(one, scene_.get()), files_.materials());
-    take(document, json.value("title", std::string("change")));
+    return document;
+  }
+
+  Json edit(const std::string& body) {
+    const Json json = parsed(body);
+    const std::scoped_lock lock(mutex_);
+    take(edited(json), json.value("title", std::string("change")));
     return state();
+  }
+
+  /// The surfaces that edits would change, which are made without changing the document.
+  Json try_edits(const std::string& body) {
+    const Json json = parsed(body);
+    const std::scoped_lock lock(mutex_);
+    if (!scene_ || !plan_) throw InvalidInput("there is no scene");
+    const std::string document = edited(json);
+    files_.check(document);
+    StudioPlan plan = *plan_of(document);
+    std::set<std::string> shown;
+    for (const StudioWish& wish : plan_->wishes) shown.insert(wish.key);
+    std::erase_if(plan.wishes, [&](const StudioWish& wish) { return shown.contains(wish.key); });
+    const auto tried = std::make_shared<const StudioPlan>(std::move(plan));
+    worker_->try_also(tried);
+    decals_->try_also(tried);
+    return {{"surfaces", surfaces_json(*tried)}, {"decals", StudioDecals::changed(*tried, *plan_)}};
   }
 
   Json step(bool back) {
@@ -370,10 +345,9 @@ class StudioSession::Studio {
 
   // ---- What pages ask for.
 
-  Json surfaces_json() const {
+  Json surfaces_json(const StudioPlan& plan) const {
     Json list = Json::array();
-    if (!plan_ || !scene_) return list;
-    for (const StudioWish& wish : plan_->wishes) {
+    for (const StudioWish& wish : plan.wishes) {
       const std::string name = short_name(wish.key);
       const auto made = worker_->find(name);
       list.push_back({{"part", wish.part},
@@ -414,6 +388,7 @@ class StudioSession::Studio {
   }
 
   std::string default_output() const {
+    if (files_.scene().empty()) return {};
     return files_.scene_stem() + (is_gltf_file(files_.scene()) ? "-baked.glb" : ".glb");
   }
 
@@ -434,23 +409,49 @@ class StudioSession::Studio {
             {"restored", is_restored_},
             {"undo", history_.can_undo() ? Json(history_.undo_title()) : Json(nullptr)},
             {"redo", history_.can_redo() ? Json(history_.redo_title()) : Json(nullptr)},
-            {"surfaces", surfaces_json()},
+            {"surfaces", plan_ && scene_ ? surfaces_json(*plan_) : Json::array()},
+            {"decals", plan_ ? StudioDecals::list(*plan_) : Json::array()},
+            {"carriers", plan_ && scene_ ? StudioCarrierMaker::wanted(*plan_) : Json(nullptr)},
             {"rules", rules},
             {"output", default_output()},
             {"command", scene_ ? shell_line(bake_words(default_output(), {})) : std::string()},
             {"problem", keep_problem_}};
   }
 
-  PageAnswer surface(const Query& query) const {
+  /// The surface that a query names: one that was made, or one as it was read.
+  std::shared_ptr<const StudioSurface> asked_surface(const Query& query) const {
     if (query.contains("id")) {
       const auto made = worker_->find(query.at("id"));
       if (!made) throw InvalidInput("the surface is not there yet");
-      return bytes_answer("application/octet-stream", surface_bytes(*made));
+      return made;
     }
     const auto scene = current_scene();
     const std::uint32_t part = number_of(query, "part"), slot = number_of(query, "slot");
     if (!scene || part >= scene->scene().parts.size()) throw InvalidInput("there is no such surface");
-    return bytes_answer("application/octet-stream", surface_bytes(scene->as_read(part, slot)));
+    return std::make_shared<const StudioSurface>(scene->as_read(part, slot));
+  }
+
+  PageAnswer surface(const Query& query) const {
+    return bytes_answer("application/octet-stream", surface_bytes(*asked_surface(query)));
+  }
+
+  /// Levels of detail of a surface that was made, by the code of the bake and with its cache; none of one that is gone.
+  PageAnswer levels(const Query& query) const {
+    const auto surface = worker_->find(required(query, "id"));
+    std::vector<ShownLevel> levels;
+    if (surface) {
+      const std::scoped_lock lock(levels_mutex_);  // One after the other: each uses all processors.
+      levels = shown_levels(surface->mesh, context_.cache, [this](const Progress&) { return !cancel_levels_; });
+    }
+    return bytes_answer("application/octet-stream", level_bytes(levels));
+  }
+
+  PageAnswer height(const Query& query) const {
+    const fs::path file = [this] {
+      const std::scoped_lock lock(mutex_);
+      return fs::path(files_.scene());
+    }();
+    return bytes_answer("image/png", height_bytes(*asked_surface(query), file));
   }
 
   std::shared_ptr<StudioScene> current_scene() const {
@@ -467,11 +468,34 @@ class StudioSession::Studio {
         if (part < scene->scene().parts.size()) look = scene->as_read(part, number_of(query, "slot")).look;
       }
     const std::uint32_t number = number_of(query, "image");
-    if (!look || number >= look->images.size()) throw InvalidInput("there is no such picture");
-    const EncodedImage& image = look->images[number];
-    static const std::set<std::string> types = {"image/png", "image/jpeg", "image/webp", "image/avif"};
-    return bytes_answer(types.contains(image.mime_type) ? image.mime_type.c_str() : "application/octet-stream",
-                        std::make_shared<const std::string>(text_of(image.bytes)));
+    if (!look) throw InvalidInput("there is no such picture");
+    return picture_answer(*look, number);
+  }
+
+  std::string scene_file() const {
+    const std::scoped_lock lock(mutex_);
+    return files_.scene();
+  }
+
+  fs::path review_file() const {
+    const std::scoped_lock lock(mutex_);
+    return fs::path(files_.materials()).parent_path() / "review.json";
+  }
+
+  std::optional<MaterialRule> rule_of_document(const std::string& material) const {
+    const std::scoped_lock lock(mutex_);
+    if (!plan_) return std::nullopt;
+    const auto found = plan_->rules.materials.find(material);
+    return found == plan_->rules.materials.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  std::vector<FeltSurface> made_surfaces() const {
+    const std::scoped_lock lock(mutex_);
+    if (!scene_ || !plan_) return {};
+    std::vector<FeltSurface> placed = placed_surfaces(*scene_, *plan_, *worker_);
+    for (const std::vector<FeltSurface>& more : {decals_->placed(), carriers_->placed()})
+      placed.insert(placed.end(), more.begin(), more.end());
+    return placed;
   }
 
   fs::path library_folder() const {
@@ -543,8 +567,9 @@ class StudioSession::Studio {
   PageAnswer report_page() const {
     const std::scoped_lock lock(bake_mutex_);
     if (report_.empty()) throw InvalidInput("no report was written");
-    return bytes_answer("text/html; charset=utf-8",
-                        std::make_shared<const std::string>(read_file(files_.checked(report_ + "/index.html"))));
+    return bytes_answer(
+        "text/html; charset=utf-8",
+        std::make_shared<const std::string>(with_review(read_file(files_.checked(report_ + "/index.html")))));
   }
 
   PageAnswer page() const {
@@ -555,8 +580,19 @@ class StudioSession::Studio {
     return bytes_answer("text/html; charset=utf-8", std::make_shared<const std::string>(std::move(html)));
   }
 
+  PageAnswer card(const Query& query) const {
+    const auto rule = rule_of_document(required(query, "material"));
+    if (!rule || rule->texture.empty()) throw InvalidInput("there is no such material with a picture");
+    return json_answer(card_json(*rule, make_grain(*rule, bake_options_.library, {}, context_.cache)));
+  }
+
   StudioRoutes routes() {
     StudioRoutes routes;
+    add_decal_routes(routes, *decals_);
+    add_carrier_routes(routes, *carriers_);
+    add_recipe_routes(routes, recipe_);
+    add_review_routes(routes, review_, [this] { tell({{"event", "review"}}); });
+    routes.get["/card"] = [this](const Query& query) { return card(query); };
     routes.get["/"] = [this](const Query&) { return page(); };
     routes.get["/state"] = [this](const Query&) {
       const std::scoped_lock lock(mutex_);
@@ -567,11 +603,15 @@ class StudioSession::Studio {
       return json_answer(scene_json());
     };
     routes.get["/surface"] = [this](const Query& query) { return surface(query); };
+    routes.get["/levels"] = [this](const Query& query) { return levels(query); };
+    routes.get["/height"] = [this](const Query& query) { return height(query); };
     routes.get["/picture"] = [this](const Query& query) { return picture(query); };
     routes.get["/library"] = [this](const Query&) { return library(); };
     routes.get["/library-picture"] = [this](const Query& query) { return library_picture(query); };
+    routes.get["/feel"] = [](const Query&) { return json_answer(feel_choices_json()); };
     routes.get["/report"] = [this](const Query&) { return report_page(); };
     routes.post["/edit"] = [this](const Query&, const std::string& body) { return json_answer(edit(body)); };
+    routes.post["/try"] = [this](const Query&, const std::string& body) { return json_answer(try_edits(body)); };
     routes.post["/undo"] = [this](const Query&, const std::string&) { return json_answer(step(true)); };
     routes.post["/redo"] = [this](const Query&, const std::string&) { return json_answer(step(false)); };
     routes.post["/save"] = [this](const Query&, const std::string&) { return json_answer(save_now()); };
@@ -595,6 +635,7 @@ class StudioSession::Studio {
   StudioFiles files_;
   const BakeOptions bake_options_;
   const ReadOptions read_options_;
+  const ServedNames names_;
   std::unique_ptr<StudioSocket> socket_;
   std::unique_ptr<StudioHttp> http_;
   const Admission admission_, socket_admission_;
@@ -617,12 +658,18 @@ class StudioSession::Studio {
   Clock::time_point left_at_, told_at_;
 
   std::mutex load_mutex_;
-  std::atomic<bool> cancel_loading_{false}, cancel_upload_{false}, is_loading_{false};
+  std::atomic<bool> cancel_loading_{false}, cancel_upload_{false}, cancel_levels_{false}, is_loading_{false};
   std::thread loader_, keeper_;
-  mutable std::mutex picture_mutex_, bake_mutex_;
+  mutable std::mutex picture_mutex_, levels_mutex_, bake_mutex_;
   std::string report_;
   std::unique_ptr<StudioBake> bake_;
   std::unique_ptr<StudioWorker> worker_;
+  std::unique_ptr<StudioDecals> decals_;
+  std::unique_ptr<StudioCarrierMaker> carriers_;
+  std::unique_ptr<StudioFeel> feel_;
+  StudioRecipe recipe_{{bake_options_.library, [this] { return review_file().parent_path(); },
+                        [this](const std::string& material) { return rule_of_document(material); }}};
+  StudioReview review_{[this] { return review_file(); }, [this] { return scene_file(); }};
 };
 
 StudioSession::StudioSession(const StudioOptions& options, const VerbContext& context)

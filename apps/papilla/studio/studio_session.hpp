@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,9 @@ struct StudioOptions {
   BakeArguments arguments;        ///< What a bake of the studio gets.
   std::vector<std::string> more;  ///< Their words on a command line, without scene and materials.
   int port = 0;
-  std::string token;   ///< Empty: a random one.
-  double close_s = 4;  ///< After the last window was closed; the program ends then.
+  std::string token;            ///< Empty: a random one.
+  std::optional<TlsFiles> tls;  ///< For others in the network; null: on 127.0.0.1 alone.
+  double close_s = 4;           ///< After the last window was closed; the program ends then.
 };
 
 /// The studio: a document of materials for a scene, edited in a browser, with all that serves it.

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "studio/tls_files.hpp"
 
 namespace papilla::app {
 
@@ -17,14 +20,14 @@ struct SocketHandlers {
   std::function<void(std::size_t clients)> changed;  ///< The number of connections.
 };
 
-/// A WebSocket server (RFC 6455) on a free port of 127.0.0.1.
+/// A WebSocket server (RFC 6455) on a free port of 127.0.0.1, or with TLS of every address of this machine.
 ///
 /// Requests that are not admitted are answered by 403. Messages above 64 KiB close their connection. A client that
 /// takes nothing of what it is sent is skipped by send_newest() and loses its connection when 64 MiB wait for it.
 class StudioSocket {
  public:
-  /// @throws std::runtime_error when no port is free.
-  StudioSocket();
+  /// @throws std::runtime_error when no port is free or a file is of no use.
+  explicit StudioSocket(const std::optional<TlsFiles>& tls = {});
   ~StudioSocket();  ///< Closes all connections and ends the thread.
   StudioSocket(const StudioSocket&) = delete;
   StudioSocket& operator=(const StudioSocket&) = delete;
@@ -40,6 +43,8 @@ class StudioSocket {
 
  private:
   class Server;
+  template <class Config>
+  class ServerOf;
   std::unique_ptr<Server> server_;
 };
 

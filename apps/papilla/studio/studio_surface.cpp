@@ -3,11 +3,17 @@
 
 #include <bit>
 #include <cstring>
+#include <set>
+#include <utility>
 
 #include "json/json.hpp"
 #include "json/scene_json.hpp"
+#include "page/page_material.hpp"
 #include "papilla/cache/digest.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/height_source.hpp"
+#include "studio/studio_answers.hpp"
 
 namespace papilla::app {
 namespace {
@@ -21,35 +27,26 @@ std::string short_name(const void* data, std::size_t size) {
 
 Json pair(Vec2 v) { return {v.x, v.y}; }
 
-/// Null where no browser shows the picture.
-Json map_json(const Scene& look, const std::optional<TextureReference>& reference) {
-  if (!reference || reference->tex_coord != 0) return nullptr;
-  const Texture& texture = look.textures.at(reference->texture);
-  if (!texture.image) return nullptr;
-  const EncodedImage& image = look.images.at(*texture.image);
-  if (image.bytes.empty()) return nullptr;
-  const UvTransform transform = reference->transform.value_or(UvTransform{});
-  return {{"image", *texture.image},          {"name", short_name(image.bytes.data(), image.bytes.size())},
-          {"factor", reference->factor},      {"wrap", {texture.wrap_s, texture.wrap_t}},
-          {"offset", pair(transform.offset)}, {"rotation", transform.rotation},
-          {"scale", pair(transform.scale)}};
-}
-
-Json look_json(const Scene& look) {
+/// The first material of the look; pictures have a name by which the page keeps them, and are null where they lie on
+/// the second texture coordinates, which the page of the studio does not have. So is the height of its tag, whose
+/// bytes height_bytes() has.
+Json studio_look_json(const Scene& look) {
   const Material material = look.materials.empty() ? Material{} : look.materials.front();
-  Json json = {{"name", material.name},
-               {"color", material.base_color},
-               {"metallic", material.metallic},
-               {"roughness", material.roughness},
-               {"emissive", material.emissive},
-               {"double_sided", material.double_sided},
-               {"alpha_mode", material.alpha_mode},
-               {"alpha_cutoff", material.alpha_cutoff},
-               {"base_map", map_json(look, material.base_color_texture)},
-               {"normal_map", map_json(look, material.normal_texture)},
-               {"shine_map", map_json(look, material.metallic_roughness_texture)},
-               {"haptic", nullptr}};
-  if (material.haptic) json["haptic"] = {{"stiffness", material.haptic->stiffness}};
+  Json json = look_json(look, material);
+  for (const char* key : {"base_map", "normal_map", "shine_map"}) {
+    Json& map = json[key];
+    if (map.is_null()) continue;
+    const EncodedImage& image = look.images[map["image"].get<std::size_t>()];
+    if (map["tex_coord"] == 0)
+      map["name"] = short_name(image.bytes.data(), image.bytes.size());
+    else
+      map = nullptr;
+  }
+  json["haptic"] = nullptr;
+  if (material.haptic) {
+    json["haptic"] = tag_json(*material.haptic);
+    if (material.haptic->height && material.haptic->height->tex_coord != 0) json["haptic"].erase("height");
+  }
   return json;
 }
 
@@ -62,19 +59,18 @@ class Arrays {
     bytes.resize(at + sizeof(T) * values.size());
     if (!values.empty()) std::memcpy(bytes.data() + at, values.data(), sizeof(T) * values.size());
   }
-  Json json = Json::object();
+  Json take() { return std::exchange(json, Json::object()); }
   std::string bytes;
+
+ private:
+  Json json = Json::object();
 };
 
-}  // namespace
-
-std::string short_name(const std::string& text) { return short_name(text.data(), text.size()); }
-
-SharedText surface_bytes(const StudioSurface& surface) {
+/// @param arrays get those of the surface.
+Json surface_json(const StudioSurface& surface, Arrays& arrays) {
   const ShownMesh& mesh = surface.mesh;
   std::vector<float> uv = mesh.uv;
   for (std::size_t i = 1; i < uv.size(); i += 2) uv[i] = 1 - uv[i];
-  Arrays arrays;
   arrays.add("positions", mesh.positions);
   arrays.add("normals", mesh.normals);
   arrays.add("uv", uv);
@@ -84,7 +80,7 @@ SharedText surface_bytes(const StudioSurface& surface) {
   Json json = {{"part", surface.part},
                {"slot", surface.slot},
                {"label", surface.label},
-               {"look", look_json(*surface.look)},
+               {"look", studio_look_json(*surface.look)},
                {"warnings", surface.warnings},
                {"seconds", surface.seconds},
                {"mm_per_uv", pair(surface.mm_per_uv)},
@@ -93,12 +89,79 @@ SharedText surface_bytes(const StudioSurface& surface) {
     json["report"] = {{"method", surface.report.method}, {"reason", surface.report.reason},
                       {"charts", surface.report.charts}, {"seam_mm", surface.report.seam_mm},
                       {"notes", surface.report.notes},   {"distortion", distortion_json(surface.report.distortion)}};
-  json["arrays"] = std::move(arrays.json);
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  text.append((4 - text.size() % 4) % 4, ' ');
-  std::string bytes(4, '\0');
-  for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<char>((text.size() >> (8 * i)) & 0xffU);
-  return std::make_shared<const std::string>(bytes + text + arrays.bytes);
+  json["arrays"] = arrays.take();
+  return json;
+}
+
+}  // namespace
+
+std::string short_name(const std::string& text) { return short_name(text.data(), text.size()); }
+
+SharedText surface_bytes(const StudioSurface& surface) {
+  Arrays arrays;
+  const Json json = surface_json(surface, arrays);
+  return framed(json, arrays.bytes);
+}
+
+SharedText level_bytes(const std::vector<ShownLevel>& levels) {
+  Json list = Json::array();
+  std::string bytes;
+  for (const ShownLevel& level : levels) {
+    list.push_back({{"coverage", level.screen_coverage}, {"at", bytes.size()}, {"count", level.indices.size()}});
+    bytes.append(reinterpret_cast<const char*>(level.indices.data()), sizeof(std::uint32_t) * level.indices.size());
+  }
+  return framed({{"levels", list}}, bytes);
+}
+
+SharedText decal_bytes(const StudioDecal& decal) {
+  Arrays arrays;
+  Json patches = Json::array();
+  for (const StudioDecal::Patch& patch : decal.patches) {
+    patches.push_back(surface_json(*patch.surface, arrays));
+    patches.back()["use"] = patch.use;
+  }
+  return framed({{"patches", patches},
+                 {"area_mm2", decal.report.area_mm2},
+                 {"triangles", decal.report.triangles},
+                 {"relief_mm", decal.report.relief_mm},
+                 {"turned_off", decal.report.turned_off},
+                 {"warnings", decal.warnings}},
+                arrays.bytes);
+}
+
+SharedText carrier_bytes(const StudioCarriers& carriers) {
+  Arrays arrays;
+  Json rectangles = Json::array(), entries = Json::array();
+  for (const StudioCarriers::Rectangle& rectangle : carriers.rectangles) {
+    rectangles.push_back(surface_json(*rectangle.surface, arrays));
+    rectangles.back()["world"] = rectangle.world;
+    rectangles.back()["use"] = rectangle.use ? Json(*rectangle.use) : Json(nullptr);
+  }
+  for (const CarrierReport& report : carriers.reports)
+    entries.push_back({{"carriers", report.carriers},
+                       {"triangles", report.triangles},
+                       {"saved", report.saved()},
+                       {"relief_mm", report.relief_mm}});
+  return framed({{"rectangles", rectangles}, {"entries", entries}, {"warnings", carriers.warnings}}, arrays.bytes);
+}
+
+PageAnswer picture_answer(const Scene& look, std::size_t number) {
+  if (number >= look.images.size()) throw InvalidInput("there is no such picture");
+  const EncodedImage& image = look.images[number];
+  static const std::set<std::string> types = {"image/png", "image/jpeg", "image/webp", "image/avif"};
+  return bytes_answer(types.contains(image.mime_type) ? image.mime_type.c_str() : "application/octet-stream",
+                      std::make_shared<const std::string>(text_of(image.bytes)));
+}
+
+SharedText height_bytes(const StudioSurface& surface, const std::filesystem::path& file) {
+  const std::vector<Material>& materials = surface.look->materials;
+  if (materials.empty() || !materials.front().haptic || !materials.front().haptic->height)
+    throw InvalidInput(surface.label + " has no height map");
+  std::vector<HapticWarning> warnings;
+  const auto bytes = find_height_bytes(*materials.front().haptic->height, *surface.look, file, 0, warnings);
+  if (!bytes)
+    throw InvalidInput(surface.label + ": " + (warnings.empty() ? "no height map" : warnings.front().message));
+  return std::make_shared<const std::string>(*bytes);
 }
 
 }  // namespace papilla::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studio/studio_worker.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "papilla/core/error.hpp"
@@ -23,7 +24,7 @@ void StudioWorker::want(std::shared_ptr<StudioScene> scene, std::shared_ptr<cons
   {
     const std::scoped_lock lock(mutex_);
     ++changes_;
-    if (scene != scene_) made_.clear(), wanted_.clear();
+    if (scene != scene_) made_.clear(), wanted_.clear(), tried_.reset();
     scene_ = std::move(scene);
     plan_ = std::move(plan);
     std::map<std::string, std::uint64_t> wanted;
@@ -35,6 +36,14 @@ void StudioWorker::want(std::shared_ptr<StudioScene> scene, std::shared_ptr<cons
     }
     wanted_ = std::move(wanted);
     forget_old();
+  }
+  changed_.notify_all();
+}
+
+void StudioWorker::try_also(std::shared_ptr<const StudioPlan> plan) {
+  {
+    const std::scoped_lock lock(mutex_);
+    tried_ = std::move(plan);
   }
   changed_.notify_all();
 }
@@ -62,11 +71,11 @@ void StudioWorker::forget_old() {
   }
 }
 
-const StudioWish* StudioWorker::next(std::size_t& left) {
+std::pair<std::shared_ptr<const StudioPlan>, const StudioWish*> StudioWorker::next(std::size_t& left) const {
   left = 0;
   const StudioWish* newest = nullptr;
   std::uint64_t since = 0;
-  if (!plan_) return newest;
+  if (!plan_) return {};
   for (const StudioWish& wish : plan_->wishes) {
     const std::string name = short_name(wish.key);
     if (made_.contains(name)) continue;
@@ -75,7 +84,18 @@ const StudioWish* StudioWorker::next(std::size_t& left) {
     newest = &wish;
     since = wanted_.at(name);
   }
-  return newest;
+  if (newest != nullptr || !tried_) return {plan_, newest};
+  for (const StudioWish& wish : tried_->wishes) {
+    if (made_.contains(short_name(wish.key))) continue;
+    ++left;
+    if (newest == nullptr) newest = &wish;
+  }
+  return {tried_, newest};
+}
+
+bool StudioWorker::is_tried(const std::string& name) const {
+  return tried_ && std::any_of(tried_->wishes.begin(), tried_->wishes.end(),
+                               [&](const StudioWish& wish) { return short_name(wish.key) == name; });
 }
 
 void StudioWorker::run() {
@@ -83,7 +103,7 @@ void StudioWorker::run() {
   bool was_working = false;
   while (!ends_) {
     std::size_t left = 0;
-    const StudioWish* wish = next(left);
+    const auto [plan, wish] = next(left);  // The plan keeps the wish.
     if (wish == nullptr && std::exchange(was_working, false)) {
       lock.unlock();
       handlers_.working(0, {});
@@ -96,7 +116,6 @@ void StudioWorker::run() {
     }
     was_working = true;
     const auto scene = scene_;
-    const auto plan = plan_;  // Keeps the wish.
     lock.unlock();
     handlers_.working(left, wish->label);
     make(scene, plan, *wish, short_name(wish->key));
@@ -108,7 +127,7 @@ void StudioWorker::make(const std::shared_ptr<StudioScene>& scene, const std::sh
                         const StudioWish& wish, const std::string& name) {
   const auto is_wanted = [&](const Progress&) {
     const std::scoped_lock lock(mutex_);
-    return !ends_ && scene_ == scene && wanted_.contains(name);
+    return !ends_ && scene_ == scene && (wanted_.contains(name) || is_tried(name));
   };
   Entry entry;
   try {

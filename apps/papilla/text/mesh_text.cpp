@@ -220,6 +220,11 @@ std::string unwrap_remarks(const UnwrapResult& result) {
       text += shown_format("{}: {}\n", part.choices.front().method, part.choices.front().reason);
     }
     if (!part.failure.empty()) text += shown_format("not unwrapped: {}\n", part.failure);
+    if (part.bound)
+      text += shown_format("part '{}': {} {}, the bound of {} {}, with seams of {:.1f} mm\n",
+                           shown_name(result.scene.parts[p]), part.bound->bound.percentile ? "percentile" : "mean",
+                           shown_format("{:.6g}", part.bound->distortion), distortion_bound_name(part.bound->bound),
+                           part.bound->kept ? "is kept" : "can't be kept", part.bound->seam_mm);
     if (!part.flattening.notes.empty())
       text += shown_format("{} charts did not take the method, the first: {}\n", part.flattening.notes.size(),
                            part.flattening.notes.front().reason);

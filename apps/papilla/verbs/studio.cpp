@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
+#include "file_options.hpp"
 #include "http/browser.hpp"
 #include "option_checks.hpp"
-#include "papilla/core/end_file_guard.hpp"
 #include "papilla/core/error.hpp"
-#include "publish.hpp"
+#include "papilla/core/file_guard.hpp"
 #include "studio/studio_session.hpp"
 #include "verb.hpp"
-#include "verbs/studio.hpp"
+#include "verbs.hpp"
 
 namespace papilla::app {
 namespace {
@@ -23,6 +23,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 struct Options {
   StudioOptions studio;
   bool no_open = false;
+  std::vector<std::string> tls;  ///< Certificate and key.
   const CLI::App* verb = nullptr;
 };
 
@@ -56,6 +57,7 @@ Json run(const Options& options, VerbContext& context) {
   if (studio_template().empty()) throw InvalidInput("studio: this program was built without its pages");
   StudioOptions studio = options.studio;
   studio.more = bake_words(*options.verb);
+  if (!options.tls.empty()) studio.tls = read_tls_files(options.tls[0], options.tls[1]);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { g_stop = true; });
   StudioSession session(studio, context);
   Json json = {{"url", session.url()}, {"port", session.port()}};
@@ -94,6 +96,10 @@ void add_studio(CLI::App& program) {
             return is_token(token) ? std::string() : "'" + token + "' is no token: 16 to 128 letters, digits, - and _";
           },
           "", "token"));
+  reads(verb->add_option("--tls", options->tls,
+                         "Serve by https, to every device of the network that has the address; PEM files"))
+      ->type_name("CERT KEY")
+      ->expected(2);
   verb->add_flag("--no-open", options->no_open, "Don't start a browser");
 }
 

@@ -14,6 +14,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/progress_until.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "scene_output.hpp"
 #include "shown_format.hpp"
@@ -29,7 +30,17 @@ struct Options {
   OutputOptions stored;
   SideOption sides;
   UnwrapOption unwrap;
+  bool strict = false;
 };
+
+/// @throws SolverFailure naming the first part that does not keep the bound.
+void require_bounds(const std::string& input, const UnwrapResult& result) {
+  for (std::size_t p = 0; p < result.parts.size(); ++p)
+    if (const auto& bound = result.parts[p].bound; bound && !bound->kept)
+      throw SolverFailure(fmt::format("{}: part '{}': the bound of {} can't be kept: {:.6g} was reached", input,
+                                      shown_name(result.scene.parts[p]), distortion_bound_name(bound->bound),
+                                      bound->distortion));
+}
 
 std::string trace_csv(const Trace& trace) {
   std::string csv = "seconds,error\n";
@@ -51,6 +62,7 @@ Json run(const Options& options, VerbContext& context) {
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
       named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
+  if (options.strict) require_bounds(options.input, result);
   const Json stored = write_output(result.scene, options.output, write, context.console);
   const Scene written = read_scene(options.output);  // what is said is what is written, in the file's precision
   MeasureOptions measure;
@@ -86,6 +98,8 @@ void add_unwrap(CLI::App& program) {
   writes(verb->add_option("--trace", options->trace, "Write error over run time as CSV: seconds,error"))
       ->type_name("FILE");
   writes(verb->add_option("--picture", options->picture, "Draw the layout, coloured by distortion"))->type_name("PNG");
+  verb->add_flag("--strict", options->strict, "Write nothing, and end with 4, when --max-distortion can't be kept")
+      ->needs("--max-distortion");
   options->sides.add_to(*verb);
   options->scene.add_to(*verb);
   options->stored.add_to(*verb);

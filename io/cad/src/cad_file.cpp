@@ -158,10 +158,10 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
 }
 
 /// The library's exceptions are not the standard's.
-Scene read_in_this_process(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
-                           const ProgressCallback& progress) {
+Scene read_in_this_process(const std::filesystem::path& path, const CadReadOptions& options, int threads,
+                           CadReport& report, const ProgressCallback& progress) {
   try {
-    cad::set_up_threads();
+    cad::set_up_threads(threads);
     return read(path, options, report, progress);
   } catch (const Standard_Failure& failure) {
     std::string what = failure.GetMessageString();
@@ -180,15 +180,18 @@ Scene cad::read_file(const std::filesystem::path& path, const CadReadOptions& op
   CadReport own;
   CadReport& filled = report ? *report : own;
   filled = {};
-  if (!options.isolated) return read_in_this_process(path, options, filled, progress);
+  const int threads = cad::wanted_threads();
+  if (!options.isolated) return read_in_this_process(path, options, threads, filled, progress);
   Scene scene;
   CacheCounts counts;  // Of the child's copy of the cache.
   run_isolated({path, "the CAD library",
                 [&](const ProgressCallback& child_progress) {
                   cad::after_fork();
-                  if (options.cache != nullptr) options.cache->take_counts();  // The caller's.
-                  scene = read_in_this_process(path, options, filled, child_progress);
-                  if (options.cache != nullptr) counts = options.cache->take_counts();
+                  const auto cache = options.cache != nullptr ? options.cache->for_child() : nullptr;
+                  CadReadOptions own_options = options;
+                  own_options.cache = cache.get();
+                  scene = read_in_this_process(path, own_options, threads, filled, child_progress);
+                  if (cache) counts = cache->counts();
                 },
                 [&](int pipe) { send_values(pipe, scene, filled, counts); },
                 [&](int pipe) { receive_values(pipe, scene, filled, counts); }},

@@ -17,13 +17,16 @@ bool g_orphaned = false;  // They stayed in the parent.
 
 }  // namespace
 
-void set_up_threads() {
+int wanted_threads() {
+  using oneapi::tbb::global_control;
+  return static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+}
+
+void set_up_threads(int wanted) {
   if (g_orphaned) return;
   OSD_Parallel::SetUseOcctThreads(true);
-  const std::size_t wanted =
-      oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
-  const Handle(OSD_ThreadPool)& pool = OSD_ThreadPool::DefaultPool(static_cast<int>(wanted));
-  if (pool->NbThreads() != static_cast<int>(wanted)) pool->Init(static_cast<int>(wanted));
+  const Handle(OSD_ThreadPool)& pool = OSD_ThreadPool::DefaultPool(wanted);
+  if (pool->NbThreads() != wanted) pool->Init(wanted);
   g_started = true;
 }
 

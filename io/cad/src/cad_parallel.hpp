@@ -6,9 +6,12 @@
 
 namespace papilla::cad {
 
-/// Lets OpenCASCADE's own threads do the work, as many as TBB may use. They, unlike TBB's, are not started before the
-/// process is forked.
-void set_up_threads();
+/// As many threads as TBB may use. To be asked for before the process is forked: another thread may be asking, too.
+int wanted_threads();
+
+/// Lets so many of OpenCASCADE's own threads do the work. They, unlike TBB's, are not started before the process is
+/// forked.
+void set_up_threads(int wanted);
 
 /// To be called in a forked child: threads of the parent are gone.
 void after_fork();

@@ -1,34 +1,55 @@
 // SPDX-License-Identifier: MIT
 // Puts the studio's page together.
 import { element } from '../dom.mjs';
-import { Socket, address, blob, bytes, get, parseSurface, post, upload } from './api.mjs';
+import { ConnectionBroke, Socket, address, bytes, filesOf, get, parseSurface, post, upload } from './api.mjs';
+import { Feel } from './feel.mjs';
 import { DRAG_TYPE, MaterialList } from './materials.mjs';
+import { Carriers } from './carriers.mjs';
+import { Decals } from './decals.mjs';
 import { colourAt } from './overlay.mjs';
 import { number } from '../colour.mjs';
+import { GrainTurn } from './grain_turn.mjs';
 import { PartPanel } from './part.mjs';
+import { PhotoCard } from './photo_card.mjs';
+import { RecipePanel } from './recipe_panel.mjs';
+import { Review } from './review.mjs';
 import { T } from './texts.mjs';
 import { Tree } from './tree.mjs';
 import { View } from './view.mjs';
+import { WornPage } from './worn_page.mjs';
+import { Headset } from '../xr/headset.mjs';
 
 const $ = (id) => document.getElementById(id);
 const MOST_AT_ONCE = 4;
+const SOON_MS = 20, AGAIN_MS = 1000;
 
 class Studio {
-  constructor(data) { Object.assign(this, { data, state: null, scene: null, selected: new Set(), hidden: new Set(), shown: new Map(), library: [] }); }
+  constructor(data) { Object.assign(this, { data, state: null, scene: null, selected: new Set(), hidden: new Set(), shown: new Map(), made: new Set(), library: [] }); }  // `made`: names that were told ready, also before the state that has them.
 
   start() {
     this.words();
-    this.view = new View($('canvas'), (hit, event) => this.pick(hit, event));
+    this.view = new View($('canvas'), (hit, event) => this.pick(hit, event), (error) => this.failed(error));
     this.tree = new Tree($('tree'), (keys, add) => this.select(keys, add), (keys, event) => this.dropMaterial(event, keys));
     this.materials = new MaterialList($('own'), $('library'), (what) => this.apply(what, [...this.selected]));
+    this.recipe = new RecipePanel($('panel-recipe'), $('tab-recipe'), this);
     this.panel = new PartPanel($('part'), {
-      vary: (values) => this.vary(values), assign: (name) => this.assign(name, [...this.selected]),
+      vary: (values) => this.vary(values), assign: (name) => this.apply({ material: name }, [...this.selected]),
       set: (material, values, key) => this.edit([{ kind: 'set', material, values }], T.did.set(material, key)),
-      remove: (material) => this.edit([{ kind: 'remove', material }], T.did.remove(material)),
+      remove: (material) => this.edit([{ kind: 'remove', material }], T.did.remove(material)), turn: new GrainTurn(this.view, (values) => this.vary(values)),
+      isRecipe: (text) => this.recipe.isRecipe(text), editRecipe: (material) => this.recipe.open(material),
     });
     this.listen();
     this.theme();
     this.connect();
+    const shared = { view: this.view, socket: this.socket, say: (text, isProblem) => this.say(text, isProblem) };
+    this.feel = new Feel($('panel-feel'), shared);
+    this.review = new Review($('panel-notes'), { ...shared, labelOf: (key) => this.state.surfaces.find((s) => this.keyOf(s) === key) ?? {} });
+    this.decals = new Decals($('panel-decals'), $('tab-decals'), this);
+    this.carriers = new Carriers($('panel-decals'), this);
+    this.card = new PhotoCard($('card'), $('own'), shared.say);
+    this.worn = new WornPage(this);
+    this.headset = new Headset(this.worn);
+    this.worn.three.ready.then(() => this.headset.offer());
     get('library').then((list) => { this.library = list; this.materials.setLibrary(list); this.showPart(); }).catch((error) => this.say(error.message, true));
     return this.refresh();
   }
@@ -64,8 +85,13 @@ class Studio {
   connect() {
     this.socket = new Socket(this.data.socket);
     this.socket.on('state', () => this.refreshSoon());
-    this.socket.on('ready', ({ surface }) => { this.showSurfaces(surface); });
-    this.socket.on('working', ({ left, label }) => this.say(left ? T.working(left, label) : T.ready));
+    this.socket.on('open', () => this.refreshSoon());  // What was told before.
+    this.socket.on('ready', ({ surface }) => { this.made.add(surface); this.showSurfaces(); });
+    this.socket.on('working', ({ left, label }) => {
+      this.materials.pictures.hold(left > 0);
+      this.view.levels.hold(left > 0);
+      this.say(left ? T.working(left, label) : T.ready);
+    });
     this.socket.on('failed', ({ label, problem }) => this.say(T.failed(label, problem), true));
     this.socket.on('problem', ({ text }) => this.say(text, true));
     this.socket.on('loading', (event) => this.progress(T.loading(event.file, event.stage, Math.round(100 * event.fraction)), event.fraction));
@@ -80,23 +106,31 @@ class Studio {
 
   // ---- State.
 
-  refreshSoon() {
+  refreshSoon(ms = SOON_MS) {
     clearTimeout(this.refreshing);
-    this.refreshing = setTimeout(() => this.refresh(), 20);
+    this.refreshing = setTimeout(() => this.refresh(), ms);
   }
 
   async refresh() {
     try {
       this.take(await get('state'));
     } catch (error) {
-      if (!this.isLost) this.say(error.message, true);
+      this.failed(error);
     }
+  }
+
+  /** Tells why something was not fetched. Where the connection broke it is asked for again; what the server refuses it refuses again. */
+  failed(error) {
+    if (this.isLost) return;
+    this.say(error.message, true);
+    if (error instanceof ConnectionBroke) this.refreshSoon(AGAIN_MS);
   }
 
   take(state) {
     if (this.state && state.version < this.state.version) return;
     const sceneChanged = state.scene_file !== this.shownFile || (state.surfaces.length > 0) !== Boolean(this.scene);
     this.state = state;
+    this.byKey = new Map(state.surfaces.map((s) => [this.keyOf(s), s]));
     document.body.dataset.version = state.version;
     $('undo').disabled = state.undo === null;
     $('redo').disabled = state.redo === null;
@@ -106,24 +140,36 @@ class Studio {
     $('saved').textContent = state.saved ? T.saved : T.unsaved;
     $('saved').dataset.saved = state.saved;
     $('bake').disabled = !state.surfaces.length;
-    if (!$('output').value) $('output').value = state.output;
+    if ($('output').value === (this.offered ?? '')) $('output').value = this.offered = state.output;
     this.showCommand();
     $('welcome').hidden = state.surfaces.length > 0 || state.loading;
     if (state.problem) this.say(state.problem, true);
     if (state.load_problem && !state.loading) this.say(T.loadFailed(state.scene_file, state.load_problem), true);
     if (state.restored && !this.toldRestored) { this.toldRestored = true; this.say(T.restored); }
     this.materials.setDocument(state.document.materials);
+    this.card.setDocument(state.document.materials);
+    this.worn.documentChanged();
+    this.recipe.setDocument();
+    this.decals.setDocument();
+    this.carriers.setDocument();
     if (sceneChanged && state.surfaces.length) return this.takeScene();
     return this.showSurfaces();
   }
 
   async takeScene() {
     this.shownFile = this.state.scene_file;
-    this.scene = await get('scene');
+    try {
+      this.scene = await get('scene');
+    } catch (error) {
+      this.shownFile = undefined;
+      return this.failed(error);
+    }
     this.shown.clear();
     this.selected = new Set();
     this.hidden = new Set();
     this.view.setScene(this.scene);
+    this.decals.clear();
+    this.carriers.clear();
     $('scene-file').textContent = this.scene.file;
     await this.showSurfaces();
     this.view.frame();
@@ -132,9 +178,9 @@ class Studio {
   keyOf(surface) { return `${surface.part}/${surface.slot}/${surface.uses[0]}`; }
 
   /** Fetches what the page does not show yet: as it will be where that is there, else as it was read. */
-  async showSurfaces(only) {
+  async showSurfaces() {
     if (!this.scene || !this.state) return;
-    const keys = new Set(this.state.surfaces.map((s) => this.keyOf(s)));
+    const keys = new Set(this.byKey.keys());
     const same = JSON.stringify([...keys]);
     if (same !== this.treeKeys) {
       this.treeKeys = same;
@@ -142,19 +188,26 @@ class Studio {
       for (const s of this.state.surfaces) for (const use of s.uses) byUse.set(use, [...byUse.get(use) ?? [], { key: this.keyOf(s), label: s.label }]);
       this.tree.fill(this.scene.uses, (use) => byUse.get(use) ?? []);
       this.view.keepOnly(keys);
+      for (const key of [...this.shown.keys()]) if (!keys.has(key)) this.shown.delete(key);
     }
-    if (only) for (const s of this.state.surfaces) if (s.name === only) s.ready = true;
-    const wanted = this.state.surfaces.filter((s) => {
-      const name = s.ready ? s.name : null, shown = this.shown.get(this.keyOf(s));
-      return shown?.loading !== (name ?? shown?.loading ?? '') && (name !== null || !shown);
-    });
+    for (const s of this.state.surfaces) s.ready ||= this.made.has(s.name);
+    const wanted = this.state.surfaces.filter((s) => this.isToFetch(s)).map((s) => this.keyOf(s));
     const next = async () => {
-      for (let surface = wanted.shift(); surface; surface = wanted.shift()) await this.fetchSurface(surface);
+      while (wanted.length) {  // Meanwhile there may be a newer state, which wants something else.
+        const surface = this.byKey.get(wanted.shift());
+        if (surface && this.isToFetch(surface)) await this.fetchSurface(surface);
+      }
     };
-    await Promise.all(Array.from({ length: MOST_AT_ONCE }, next));
+    await Promise.all([...Array.from({ length: MOST_AT_ONCE }, next), this.decals.showReady(), this.carriers.showReady()]);
     this.showPart();
     this.legend();
     document.body.dataset.shown = [...this.shown.values()].filter((s) => s.name).length;
+  }
+
+  /** One that was made and is neither shown nor under way, or of which nothing is. */
+  isToFetch(surface) {
+    const shown = this.shown.get(this.keyOf(surface));
+    return surface.ready ? shown?.loading !== surface.name : !shown;
   }
 
   async fetchSurface(surface) {
@@ -165,11 +218,12 @@ class Studio {
     try {
       const data = parseSurface(await bytes('surface', place));
       if (this.shown.get(key) !== entry) return;  // A newer one is under way.
-      await this.view.setSurface(key, data, surface.uses, (image) => blob('picture', { ...place, image }));
+      await this.view.setSurface(key, data, surface.uses, filesOf(place));
       if (this.shown.get(key) === entry) Object.assign(entry, { data, name });
+      this.recipe.dressAgain(key);
     } catch (error) {
       if (this.shown.get(key) === entry) this.shown.delete(key);
-      if (!this.isLost) this.say(error.message, true);
+      this.failed(error);
     }
   }
 
@@ -178,6 +232,8 @@ class Studio {
   surfacesOf(keys) { return this.state.surfaces.filter((s) => keys.has(this.keyOf(s))); }
 
   pick(hit, event) {
+    if (this.decals.pick(hit)) return undefined;
+    this.review.pickAt(hit);
     if (!hit) return event.ctrlKey || event.shiftKey ? undefined : this.select([], false);
     this.select([hit.key], event.ctrlKey || event.metaKey || event.shiftKey);
     return this.tree.reveal(hit.key);
@@ -212,28 +268,32 @@ class Studio {
 
   // ---- Changes.
 
+  /** @returns whether it was done */
   async edit(edits, title) {
     try {
       this.take(await post('edit', { edits, title }));
+      return true;
     } catch (error) {
       this.say(error.message, true);
+      return false;
     }
   }
 
   slots(keys) { return this.surfacesOf(new Set(keys)).map((s) => [s.part, s.slot]); }
 
-  /** A material of the document, or of the library, which comes into the document. */
-  apply(what, keys) {
-    if (!keys.length) return this.say(T.selectFirst);
-    if (!what.library) return this.assign(what.material, keys);
-    const id = what.library, own = Object.entries(this.state.document.materials ?? {}).find(([, m]) => m.material === `library:${id}` && Object.keys(m).length === 1);
-    const name = own?.[0] ?? id, taken = !own && name in (this.state.document.materials ?? {});
-    if (taken) return this.assign(name, keys);
-    const add = own ? [] : [{ kind: 'add', material: name, values: { '/material': `library:${id}` } }];
-    return this.edit([...add, { kind: 'assign', surfaces: this.slots(keys), material: name }], T.did.assign(name, this.whatOf(keys)));
+  /** The change that gives surfaces a material of the document, or of the library, which comes into the document. */
+  editOf({ material, library: id }, keys) {
+    const { materials = {} } = this.state.document, onto = (name) => ({ kind: 'assign', surfaces: this.slots(keys), material: name ?? '' });
+    const own = id && Object.entries(materials).find(([, m]) => m.material === `library:${id}` && Object.keys(m).length === 1), name = id ? own?.[0] ?? id : material;
+    const add = !id || own || name in materials ? [] : [{ kind: 'add', material: name, values: { '/material': `library:${id}` } }];
+    return { edits: [...add, onto(name)], title: T.did.assign(name, this.whatOf(keys)) };
   }
 
-  assign(name, keys) { return this.edit([{ kind: 'assign', surfaces: this.slots(keys), material: name ?? '' }], T.did.assign(name, this.whatOf(keys))); }
+  apply(what, keys) {
+    if (!keys.length) return this.say(T.selectFirst);
+    const { edits, title } = this.editOf(what, keys);
+    return this.edit(edits, title);
+  }
 
   vary(values) {
     const surfaces = this.surfacesOf(this.selected);
@@ -256,12 +316,6 @@ class Studio {
     } catch (error) {
       this.say(error.message, true);
     }
-  }
-
-  addRecipe() {
-    const recipe = prompt(T.recipeAsk);
-    const name = recipe && prompt(T.nameAsk, recipe.split('|')[0]);
-    if (name) this.edit([{ kind: 'add', material: name, values: { '/texture': recipe, '/size_mm': [40, 40] } }], T.did.add(name));
   }
 
   // ---- Files.
@@ -350,6 +404,13 @@ class Studio {
     }
   }
 
+  showOverlay(id) {
+    if (!(id in T.overlays)) return;
+    $('overlay').value = id;
+    this.view.setOverlay(id);
+    this.legend();
+  }
+
   listen() {
     const on = (id, name, work) => $(id).addEventListener(name, work);
     on('undo', 'click', () => this.step('undo'));
@@ -364,11 +425,13 @@ class Studio {
     });
     on('find-part', 'input', (e) => this.tree.find(e.target.value));
     on('find-material', 'input', (e) => this.materials.find(e.target.value));
-    on('apply', 'click', () => {
+    const withChosen = (work) => {
       const chosen = document.querySelector('.material[aria-selected=true]');
-      if (chosen) this.apply(chosen.what, [...this.selected]);
-    });
-    on('add-recipe', 'click', () => this.addRecipe());
+      if (chosen) work(chosen.what);
+    };
+    on('apply', 'click', () => withChosen((what) => this.apply(what, [...this.selected])));
+    on('add-recipe', 'click', () => this.openTab($('tab-recipe')));
+    on('edit-recipe', 'click', () => withChosen((what) => this.recipe.openChosen(what)));
     on('add-photo', 'click', () => $('photo-file').click());
     on('photo-file', 'change', (e) => { if (e.target.files[0]) this.addPhoto(e.target.files[0]); e.target.value = ''; });
     on('hide', 'click', () => this.setHidden(new Set([...this.hidden, ...this.selected])));
@@ -378,7 +441,7 @@ class Studio {
     on('camera', 'change', (e) => e.target.value === 'seat' ? this.view.seat() : this.view.setMode(e.target.value));
     on('light', 'change', (e) => e.target.value === 'own' ? $('own-light').click() : this.view.setLight(e.target.value));
     on('own-light', 'change', (e) => e.target.files[0] && this.view.setOwnLight(e.target.files[0]).catch((error) => this.say(error.message, true)));
-    on('overlay', 'change', (e) => { this.view.setOverlay(e.target.value); this.legend(); });
+    on('overlay', 'change', (e) => this.showOverlay(e.target.value));
     on('map', 'change', (e) => { this.view.setOverlay(this.view.overlay, e.target.value); this.legend(); });
     on('seams', 'change', (e) => this.view.setSeams(e.target.checked));
     const cut = () => { $('section-place').hidden = $('section').value === 'off'; this.view.setSection($('section').value, $('section-place').valueAsNumber); };
@@ -394,7 +457,7 @@ class Studio {
       this.dropMaterial(e, hit ? [hit.key] : []);
     });
     document.addEventListener('keydown', (e) => this.key(e));
-    addEventListener('beforeunload', (e) => { if (this.state && !this.state.saved && !this.isLost) e.preventDefault(); });
+    addEventListener('beforeunload', (e) => { if (this.state && (!this.state.saved || this.recipe.isChanged) && !this.isLost) e.preventDefault(); });
     for (const tab of document.querySelectorAll('[role=tab]')) {
       tab.addEventListener('click', () => this.openTab(tab));
       tab.addEventListener('keydown', (e) => {
@@ -418,7 +481,9 @@ class Studio {
     event.preventDefault();
     if (event.type !== 'drop') return;
     const [file] = event.dataTransfer.files;
-    if (file) return file.type.startsWith('image/') ? this.addPhoto(file) : this.openFile(file);
+    if (file && !file.type.startsWith('image/')) return this.openFile(file);
+    if (file && this.decals.takesFiles) return this.decals.begin(file, event.target === $('canvas') ? this.view.hitAt(event) : null);
+    return file && this.addPhoto(file);
   }
 
   key(event) {

@@ -2,6 +2,7 @@
 // The materials of the document and of the library, to be dragged onto parts or applied with Enter.
 import { element } from '../dom.mjs';
 import { address } from './api.mjs';
+import { PictureQueue } from './picture_queue.mjs';
 import { T } from './texts.mjs';
 
 /** What is dragged: {"material": name} or {"library": id}. */
@@ -12,7 +13,7 @@ const fold = (text) => text.toLowerCase().replace(/ß/g, 'ss').normalize('NFD').
 export class MaterialList {
   /** @param onApply({material} or {library}) */
   constructor(own, library, onApply) {
-    Object.assign(this, { own, library, onApply, entries: [] });
+    Object.assign(this, { own, library, onApply, entries: [], pictures: new PictureQueue() });
     for (const host of [own, library]) host.addEventListener('keydown', (e) => this.key(e, host));
   }
 
@@ -45,10 +46,12 @@ export class MaterialList {
     const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
     const colour = about?.appearance?.color ?? about?.color;
     if (colour) swatch.style.background = colour;
-    if (what.library) {
-      const picture = element('img', { loading: 'lazy', alt: '', src: address('library-picture', { id: what.library }), draggable: 'false' });
+    const shown = what.library ?? /^library:(.+)$/.exec(about?.material ?? '')?.[1];
+    if (shown) {
+      const picture = element('img', { alt: '', 'data-src': address('library-picture', { id: shown }), draggable: 'false' });
       swatch.append(picture);
       picture.addEventListener('error', () => picture.remove());
+      this.pictures.add(picture);
     }
     const item = element('div', { role: 'option', tabindex: '-1', draggable: 'true', class: 'material', 'aria-selected': 'false', title: `${what.library ? `library:${what.library}` : title}` }, swatch, element('span', {}, title));
     item.dataset.material = what.library ? `library:${what.library}` : what.material ?? '';

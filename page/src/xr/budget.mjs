@@ -7,7 +7,7 @@ import { applyView, shadingOf } from '../shading.mjs';
 import { textureBytes } from '../textures.mjs';
 
 /** Of one eye; a frame draws two, with room left for menu and hands. */
-const MOST_TRIANGLES = 240000;
+export const MOST_TRIANGLES = 225000;
 export const MOST_TEXTURE_BYTES = 256 * 2 ** 20;
 const MAPS = ['map', 'normalMap', 'roughnessMap'];
 
@@ -34,22 +34,47 @@ function placedGeometry({ place, data, coarse }) {
   return geometry.applyMatrix4(place.toScene);
 }
 
+/** Whether a piece is of these entries of chosen(). */
+const isMadeOf = ({ userData }, entries = []) => userData.entries.length === entries.length
+  && userData.entries.every(({ place, coarse }, i) => place.object === entries[i].place.object && coarse === entries[i].coarse);
+
 /** Everything but places with levels of detail, which choose for themselves. */
 export class Merged {
-  constructor(three, scene) {
-    this.group = new THREE.Group();
+  /** @param three of WornPage, @param page whose materials count when a piece is made */
+  constructor(three, page) {
+    Object.assign(this, { three, page, group: new THREE.Group(), pieces: new Map(), places: [] });
+    this.update();
+  }
+
+  /** Takes the surfaces that are there now: pieces of which a part came, went or changed are made anew. */
+  update() {
+    const { three } = this, wanted = new Map();
     this.places = three.surface.places.filter(({ object }) => object.parent === three.root);
-    const pieces = new Map();
     for (const entry of chosen(this.places)) {
       const { mesh } = entry.place.object.userData, key = `${mesh.material} ${mesh.uv}`;
-      if (!pieces.has(key)) pieces.set(key, { mesh, geometries: [] });
-      pieces.get(key).geometries.push(placedGeometry(entry));
+      if (!wanted.has(key)) wanted.set(key, { mesh, entries: [] });
+      wanted.get(key).entries.push(entry);
     }
-    for (const { mesh, geometries } of pieces.values()) {
-      const piece = new THREE.Mesh(mergeGeometries(geometries));
-      piece.userData = { standard: three.standard[mesh.material] ?? three.plain, shader: shadingOf(scene.materials[mesh.material], mesh, false), material: scene.materials[mesh.material] };
-      this.group.add(piece);
+    for (const [key, piece] of this.pieces) if (!isMadeOf(piece, wanted.get(key)?.entries)) this.remove(key, piece);
+    for (const [key, { mesh, entries }] of wanted) {
+      if (!this.pieces.has(key)) this.add(key, mesh, entries);
+      this.pieces.get(key).userData.standard = three.standard[mesh.material] ?? three.plain;
     }
+    if (this.group.parent) this.show(true);
+  }
+
+  add(key, mesh, entries) {
+    const piece = new THREE.Mesh(mergeGeometries(entries.map(placedGeometry))), material = this.page.scene.materials[mesh.material];
+    piece.userData = { entries, shader: shadingOf(material, mesh, false), material };
+    this.pieces.set(key, piece);
+    this.group.add(piece);
+  }
+
+  remove(key, piece) {
+    this.pieces.delete(key);
+    this.group.remove(piece);
+    piece.geometry.dispose();
+    piece.userData.shader.dispose();
   }
 
   view(view, range) {
@@ -60,13 +85,13 @@ export class Merged {
   }
 
   /** The pieces stand in for the parts, or leave again. */
-  show(three, on) {
+  show(on) {
     for (const { object } of this.places) object.visible = !on;
-    if (on) three.scene.add(this.group);
-    else three.scene.remove(this.group);
+    if (on) this.three.scene.add(this.group);
+    else this.three.scene.remove(this.group);
   }
 
-  dispose() { for (const { geometry, userData } of this.group.children) { geometry.dispose(); userData.shader.dispose(); } }
+  dispose() { for (const [key, piece] of this.pieces) this.remove(key, piece); }
 }
 
 /** Textures of materials, each once. */

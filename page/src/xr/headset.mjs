@@ -1,30 +1,68 @@
 // SPDX-License-Identifier: MIT
-// The scene in a headset at its true size.
+// The scene of a page in a headset at its true size.
 import * as THREE from 'three';
 import { VIEWS, reasonOff } from '../views.mjs';
 import { Merged, fitTextures } from './budget.mjs';
 import { Moving } from './moving.mjs';
 import { Menu, NameTag } from './panel.mjs';
+import { snapshot } from './snapshot.mjs';
+import { XR } from './texts.mjs';
 import { Tip } from './tip.mjs';
 
+/**
+ * What the headset asks of a page. Lengths in mm, Y up; a use is one place of a part, by its number.
+ * @typedef {object} WornPage
+ * @property {WornView} three
+ * @property {{parts: {meshes: Mesh[]}[], materials: object[]}} scene materials as the pages' data have them, with their relief where it is there
+ * @property {import('../compare.mjs').Compare} compare
+ * @property {{list: object[], add: function}} notes add(spot, text, position, look, where, picture)
+ * @property {object} view that is shown, of VIEWS
+ * @property {number[]} range of its scale
+ * @property {function(object)} switchTo shows a view
+ * @property {function(number): string} nameOf a use
+ * @property {?object} spot that was picked, @property {function(object)} pick picks one, of Surface
+ * @property {{name: string, group: string}[]} choices of B; those of a group stand side by side
+ * @property {?number} b its choice that the picked part has
+ * @property {function(?number)} compareWith puts a choice there, or none
+ * @property {function(string)} say
+ * @property {function(boolean)} wear before the headset draws the scene, and after it has
+ */
+/**
+ * @typedef {object} WornView
+ * @property {THREE.WebGLRenderer} renderer
+ * @property {THREE.PerspectiveCamera} camera
+ * @property {HTMLCanvasElement} canvas
+ * @property {THREE.Scene} world of metres while it is worn
+ * @property {THREE.Group} scene in the world, of mm
+ * @property {THREE.Group} root in the scene; its own children are drawn by material
+ * @property {import('../surface.mjs').Surface} surface of meshes with {use, mesh} as userData
+ * @property {THREE.Material[]} standard by number of the material, and `plain` where a mesh has none
+ * @property {THREE.Object3D} outline of what is picked
+ * @property {{fit: function}[]} marks told before each frame
+ * @property {THREE.Box3} box of everything
+ * @property {?{eye: THREE.Vector3, ahead: THREE.Vector3}} seat
+ * @property {?function} onSurfaces set by the headset: called when other surfaces or materials are there
+ */
+/**
+ * @typedef {object} Mesh
+ * @property {number} material its number, @property {boolean} uv whether it has any, @property {number} vertices
+ * @property {{positions, normals, uv, uv1, measured, indices, coarse}} data `coarse` indices may be empty
+ */
+
 const $ = (id) => document.getElementById(id);
-const METRE = 1e-3, SNAPSHOT = [640, 480];
+const METRE = 1e-3;
 const SHOWN_VIEWS = ['textured', 'checker', 'stretch', 'stiffness'];
-const REMARKS = ['Please look at this', 'Seam is visible', 'Grain too large', 'Grain too small', 'Wrong colour', 'Feels too hard', 'Feels too soft', 'Feels too slippery'];
 const STICK = 0.09;
 
 export class Headset {
-  constructor(page) {
-    this.page = page;
-    this.three = page.three;
-    this.remark = 0;
-    this.b = null;
-  }
+  /** @param {WornPage} page */
+  constructor(page) { Object.assign(this, { page, three: page.three, remark: 0 }); }
 
   /** Offers the button where the browser has a headset. */
   async offer() {
     const can = this.three && navigator.xr && await navigator.xr.isSessionSupported('immersive-vr').catch(() => false);
     $('enter-vr').hidden = !can;
+    $('enter-vr-text').textContent = XR.enter;
     if (can) $('enter-vr').addEventListener('click', () => this.session ? this.session.end() : this.enter());
   }
 
@@ -32,17 +70,19 @@ export class Headset {
     const { three } = this, { xr } = three.renderer;
     try {
       const session = await navigator.xr.requestSession('immersive-vr', { optionalFeatures: ['local-floor', 'hand-tracking'] });
-      session.addEventListener('end', () => this.leave());
+      session.addEventListener('end', () => setTimeout(() => this.leave()));  // when the renderer has left, too
       this.session = session;
-      this.before = { position: three.camera.position.clone(), quaternion: three.camera.quaternion.clone(), zoom: three.camera.zoom };
+      const { position, quaternion, zoom, fov, near, far } = three.camera;
+      this.before = { position: position.clone(), quaternion: quaternion.clone(), lens: { zoom, fov, near, far } };
+      this.page.wear(true);
       this.arrange();
       xr.enabled = true;
       xr.setReferenceSpaceType('local-floor');
       await xr.setSession(session);
       three.renderer.setAnimationLoop((time) => this.frame(time / 1000));
-      $('enter-vr-text').textContent = 'Leave VR';
+      $('enter-vr-text').textContent = XR.leaveVr;
     } catch (error) {
-      $('picked').textContent = `The headset can't be entered: ${error.message}`;
+      this.page.say(XR.failed(error.message));
       this.session?.end();
     }
   }
@@ -50,7 +90,6 @@ export class Headset {
   /** Metres in place of millimetres, one piece a material, hands. */
   arrange() {
     const { three, page } = this;
-    this.textureBytes = fitTextures(three.standard);
     three.scene.scale.setScalar(METRE);
     three.scene.traverse((o) => { if (o.isLOD) for (const level of o.levels) level.distance *= METRE; });
     this.rig = new THREE.Group();
@@ -61,21 +100,21 @@ export class Headset {
     three.camera.zoom = 1;
     three.camera.position.set(0, 0, 0);  // of the rig, until the headset says where it is
     three.camera.quaternion.identity();
-    this.merged = new Merged(three, page.scene);
-    this.merged.show(three, true);
-    this.show(page.view);
+    this.merged = new Merged(three, page);
+    this.merged.show(true);
+    this.showSurfaces();
+    three.onSurfaces = () => this.showSurfaces();
     this.moving = new Moving(three, this.rig);
     this.hands = [0, 1].map((i) => this.hand(i));
     this.menu = new Menu(() => this.rows());
     this.tag = new NameTag();
     three.world.add(this.tag.mesh);
     this.caster = new THREE.Raycaster();
-    three.outline.visible = false;
   }
 
   hand(i) {
     const { xr } = this.three.renderer, pointer = xr.getController(i), joints = xr.getHand(i);
-    const hand = { pointer, joints, tip: new Tip(this.three, this.page.scene, this.page.compare), source: null };
+    const hand = { pointer, joints, tip: new Tip(this.three, this.page.compare), source: null };
     const stick = new THREE.Mesh(new THREE.CylinderGeometry(0.0015, 0.006, STICK, 12).rotateX(-Math.PI / 2).translate(0, 0, STICK / 2), new THREE.MeshStandardMaterial({ color: 0x9aa3ad, roughness: 0.5 }));
     const ray = new THREE.Line(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), new THREE.LineBasicMaterial({ color: 0x7cb8ff, toneMapped: false }));
     hand.ray = ray;
@@ -99,27 +138,51 @@ export class Headset {
   rows() {
     const { page } = this, view = (id) => VIEWS.find((v) => v.id === id);
     const button = (id) => ({ text: id, on: page.view.id === id, run: reasonOff(view(id), page.scene) ? null : () => this.show(view(id)) });
-    const materials = page.scene.materials.length;
-    const cycle = (by) => () => { this.b = this.b === null ? (by > 0 ? 0 : materials - 1) : (this.b + by + materials) % materials; this.compare(); };
+    const { choices, b } = page, chosen = b === null ? null : choices[b], groups = [...new Set(choices.map(({ group }) => group))];
     return [
       SHOWN_VIEWS.slice(0, 2).map(button), SHOWN_VIEWS.slice(2).map(button),
-      { text: `Part: ${this.spot ? page.nameOf(this.spot.use) : 'point and pull the trigger'}` },
-      { text: this.b === null ? 'B: no second material' : `B: ${page.scene.materials[this.b].name || `material ${this.b}`}` },
-      [{ text: '◂ B', run: cycle(-1) }, { text: 'B off', run: () => { this.b = null; this.compare(); } }, { text: 'B ▸', run: cycle(1) }],
-      { text: `“${REMARKS[this.remark]}” ▸`, run: () => { this.remark = (this.remark + 1) % REMARKS.length; } },
-      { text: `Take note and picture (${page.notes.list.length} taken)`, run: () => { this.wantsNote = Boolean(this.spot); } },
-      [{ text: 'Sit', on: this.isSeated, run: () => this.sit() }, { text: 'Stand', on: !this.isSeated, run: () => this.stand() }],
-      { text: 'Leave the headset', run: () => this.session.end() },
+      { text: XR.part(this.spot && page.nameOf(this.spot.use)) },
+      { text: chosen ? XR.second(chosen.name) : XR.noSecond },
+      ...groups.length > 1 ? [[{ text: XR.groupBefore, run: () => this.chooseGroup(groups, -1) }, { text: chosen?.group ?? groups[0] }, { text: XR.groupAfter, run: () => this.chooseGroup(groups, 1) }]] : [],
+      [{ text: XR.before, run: () => this.choose(-1) }, { text: XR.off, run: () => this.compareWith(null) }, { text: XR.after, run: () => this.choose(1) }],
+      { text: XR.remark(XR.remarks[this.remark]), run: () => { this.remark = (this.remark + 1) % XR.remarks.length; } },
+      { text: XR.note(page.notes.list.length), run: () => { this.wantsNote = Boolean(this.spot); } },
+      [{ text: XR.sit, on: this.isSeated, run: () => this.sit() }, { text: XR.stand, on: !this.isSeated, run: () => this.stand() }],
+      { text: XR.leave, run: () => this.session.end() },
     ];
+  }
+
+  /** The next B, or the one before. */
+  choose(by) {
+    const { choices: { length }, b } = this.page;
+    if (length) this.compareWith(b === null ? (by > 0 ? 0 : length - 1) : (b + by + length) % length);
+  }
+
+  /** The first B of the next group, or of the one before. */
+  chooseGroup(groups, by) {
+    const { page } = this, now = groups.indexOf(page.choices[page.b ?? 0].group), next = groups[(now + by + groups.length) % groups.length];
+    this.compareWith(page.choices.findIndex(({ group }) => group === next));
+  }
+
+  /** B on the part that the menu names: it may have been touched, not picked. */
+  compareWith(b) {
+    const { page, spot } = this;
+    if (spot && spot.use !== page.spot?.use) page.pick(spot);
+    page.compareWith(b);
   }
 
   show(view) {
     const { page } = this;
     page.switchTo(view);
-    this.merged.view(view, page.ranges.get(view.id));
+    this.merged.view(view, page.range);
   }
 
-  compare() { if (this.spot) this.page.compareWith(this.b); }
+  /** The surfaces that are there now. */
+  showSurfaces() {
+    this.textureBytes = fitTextures(this.three.standard);
+    this.merged.update();
+    this.show(this.page.view);
+  }
 
   sit() {
     this.isSeated = true;
@@ -136,7 +199,9 @@ export class Headset {
     if (hand.source?.handedness === 'left' || this.menu.press()) return;
     if (!hand.spot) return;
     this.spot = hand.spot;
+    const { b } = this.page;
     this.page.pick(hand.spot);
+    if (b !== null) this.page.compareWith(b);  // comes along
     this.menu.draw();
   }
 
@@ -153,7 +218,6 @@ export class Headset {
       this.touch(hand, time);
     }
     this.moving.move(axes.left, axes.right, this.caster.ray, seconds);
-    three.compare?.fit();
     for (const mark of three.marks) mark.fit();
     three.renderer.render(three.world, three.camera);
     const { calls, triangles } = three.renderer.info.render;
@@ -188,32 +252,17 @@ export class Headset {
   takeNote(head) {
     this.wantsNote = false;
     const eye = head.clone().divideScalar(METRE), look = this.three.camera.getWorldDirection(new THREE.Vector3());
-    this.page.notes.add(this.spot, REMARKS[this.remark], eye, look, 'headset', this.picture());
+    this.page.notes.add(this.spot, XR.remarks[this.remark], eye, look, 'headset', this.picture());
     this.menu.draw();
   }
 
-  /** What the head sees, as a JPEG in a data URL. */
+  /** What the head sees of the scene, as a JPEG in a data URL. */
   picture() {
-    const { renderer, world, camera, scene } = this.three, [width, height] = SNAPSHOT, target = new THREE.WebGLRenderTarget(width, height, { colorSpace: THREE.SRGBColorSpace });
-    const eye = new THREE.PerspectiveCamera(70, width / height, 0.02, 50), shown = renderer.getRenderTarget();
-    camera.matrixWorld.decompose(eye.position, eye.quaternion, eye.scale);
     for (const { tip, ray } of this.hands) tip.ball.visible = ray.visible = false;
     this.three.outline.visible = this.tag.mesh.visible = false;
-    scene.updateMatrixWorld();
-    renderer.xr.enabled = false;
-    renderer.setRenderTarget(target);
-    renderer.render(world, eye);
-    const bytes = new Uint8Array(4 * width * height), picture = new ImageData(width, height);
-    renderer.readRenderTargetPixels(target, 0, 0, width, height, bytes);
-    renderer.setRenderTarget(shown);
-    renderer.xr.enabled = true;
+    const picture = snapshot(this.three);
     for (const { ray, source } of this.hands) ray.visible = source?.handedness === 'right';
-    target.dispose();
-    for (let y = 0; y < height; ++y) picture.data.set(bytes.subarray(4 * width * (height - 1 - y), 4 * width * (height - y)), 4 * width * y);
-    for (let i = 3; i < picture.data.length; i += 4) picture.data[i] = 255;
-    const canvas = Object.assign(document.createElement('canvas'), { width, height });
-    canvas.getContext('2d').putImageData(picture, 0, 0);
-    return canvas.toDataURL('image/jpeg', 0.8);
+    return picture;
   }
 
   /** The page as it was. */
@@ -227,7 +276,8 @@ export class Headset {
       for (const [event, listener] of Object.entries(hand.heard)) hand.pointer.removeEventListener(event, listener);
     }
     this.moving.end();
-    this.merged.show(three, false);
+    three.onSurfaces = null;
+    this.merged.show(false);
     this.merged.dispose();
     three.world.remove(this.tag.mesh, this.rig);
     three.world.add(three.camera);
@@ -236,11 +286,10 @@ export class Headset {
     Object.assign(this, { session: null, time: undefined, isSeated: undefined });
     three.camera.position.copy(this.before.position);
     three.camera.quaternion.copy(this.before.quaternion);
-    three.camera.zoom = this.before.zoom;
+    Object.assign(three.camera, this.before.lens);
+    three.camera.updateProjectionMatrix();
     three.scene.updateMatrixWorld(true);
-    three.camera.fov = three.fov;
-    three.resize();
-    three.settle();
-    $('enter-vr-text').textContent = 'Enter VR';
+    this.page.wear(false);
+    $('enter-vr-text').textContent = XR.enter;
   }
 }

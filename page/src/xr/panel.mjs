@@ -24,21 +24,28 @@ export class Menu {
   /** @param rows a function that gives [{text, on, run}], or rows of such */
   constructor(rows) {
     this.rows = rows;
-    const list = rows();
-    Object.assign(this, textured(WIDTH_PX, ROW_PX * list.length));
-    this.mesh.scale.set(WIDTH_M, WIDTH_M * list.length * ROW_PX / WIDTH_PX, 1);
+    Object.assign(this, textured(WIDTH_PX, ROW_PX));
     this.mesh.position.set(0, 0.14, -0.05);
     this.mesh.rotation.x = -0.6;
     this.draw();
   }
 
+  /** As high as its rows are. */
+  fit(rows) {
+    if (this.canvas.height === ROW_PX * rows) return;
+    this.canvas.height = ROW_PX * rows;
+    this.map.dispose();
+    this.mesh.scale.set(WIDTH_M, WIDTH_M * this.canvas.height / WIDTH_PX, 1);
+  }
+
   draw() {
-    const context = this.canvas.getContext('2d');
+    const rows = this.rows(), context = this.canvas.getContext('2d');
+    this.fit(rows.length);
     context.fillStyle = '#12161b';
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
     context.font = `${FONT_PX}px sans-serif`;
     context.textBaseline = 'middle';
-    this.cells = this.rows().map((row) => [row].flat()).flatMap((row, j) => row.map((cell, i) => ({ ...cell, x: i * WIDTH_PX / row.length, y: j * ROW_PX, width: WIDTH_PX / row.length })));
+    this.cells = rows.map((row) => [row].flat()).flatMap((row, j) => row.map((cell, i) => ({ ...cell, x: i * WIDTH_PX / row.length, y: j * ROW_PX, width: WIDTH_PX / row.length })));
     this.cells.forEach(({ text, on, run, x, y, width }, i) => {
       context.fillStyle = on ? '#7cb8ff' : i === this.under && run ? '#46515e' : run ? '#252c34' : '#12161b';
       context.fillRect(x + 3, y + 3, width - 6, ROW_PX - 6);

@@ -14,8 +14,8 @@ const JUMP = 3, JUMP_MM = 2;
 
 export class Tip {
   /** @param compare says which material is at a spot */
-  constructor(three, scene, compare) {
-    Object.assign(this, { three, scene, compare, pulse: new Pulse(), sound: new Sound(), surfaces: new Map() });
+  constructor(three, compare) {
+    Object.assign(this, { three, compare, pulse: new Pulse(), sound: new Sound(), surfaces: new Map() });
     this.ball = new THREE.Mesh(new THREE.SphereGeometry(2.5, 16, 12), new THREE.MeshBasicMaterial({ color: 0xd55e00, toneMapped: false }));
     this.ball.visible = false;
     three.scene.add(this.ball);
@@ -31,7 +31,7 @@ export class Tip {
    * @returns {spot, force, strength} of a contact, or null
    */
   touch(point, time, actuator) {
-    const spot = this.three.surface.nearest(point, REACH), { material, ratio } = spot ? this.compare.at(spot) : {};
+    const found = this.three.surface.nearest(point, REACH), { spot, material, ratio } = found ? this.compare.at(found) : {};
     if (!material?.relief || spot.depth > DEEPEST) return this.lift();
     const surface = this.surfaceOf(material), place = reliefSpot(material, surface, spot, ratio);
     if (!place) return this.lift();

@@ -9,6 +9,7 @@
 #include "object_textures/box_clip.hpp"
 #include "object_textures/carrier_frame.hpp"
 #include "object_textures/part_picture.hpp"
+#include "object_textures/piece.hpp"
 #include "object_textures/shown_picture.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
@@ -18,6 +19,7 @@
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/pipeline/object_textures.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "scene_textures.hpp"
 
@@ -76,13 +78,6 @@ Vec3 point_before(const Transform& t, Vec3 p) {
 }
 
 Vec3 direction_before(const Transform& t, Vec3 d) { return point_before(t, d) - point_before(t, {}); }
-
-Bounds3 bounds_of(const Scene& scene) {
-  Bounds3 bounds;
-  for (const Instance& use : instances(scene))
-    for (const Vec3& p : scene.parts[use.part].mesh.positions) bounds.add(transform_point(use.world, p));
-  return bounds;
-}
 
 /// What a decal or carrier looks and feels like where it lies on one material.
 struct PictureLook {
@@ -155,12 +150,12 @@ EncodedImage png_image(const std::string& name, std::vector<std::byte> bytes) {
   return image;
 }
 
-EncodedImage png_image(const std::string& name, const RgbaImage& image) {
-  if (has_alpha(image)) return png_image(name, encode_png(image));
+std::vector<std::byte> png_of(const RgbaImage& image) {
+  if (has_alpha(image)) return encode_png(image);
   ColorImage color{image.width, image.height, {}};
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     if (i % 4 != 3) color.pixels.push_back(image.pixels[i]);
-  return png_image(name, encode_png(color));
+  return encode_png(color);
 }
 
 /// The tag of a picture with relief: constants of the surface, heights of the picture.
@@ -177,17 +172,22 @@ double max_slope_of(const std::optional<double>& wanted, const MaterialTag& cons
 
 class Application {
  public:
-  Application(Scene& scene, const Materials& rules, const ObjectTexturePlaces& places,
+  Application(Scene& scene, const Bounds3& whole, const Materials& rules, const ObjectTexturePlaces& places,
               const ObjectTextureOptions& options)
-      : scene_(scene), rules_(rules), places_(places), options_(options), pyramids_(scene), additions_(scene, result_) {
-    bounds_ = bounds_of(scene);
-  }
+      : scene_(scene),
+        rules_(rules),
+        places_(places),
+        options_(options),
+        pyramids_(scene),
+        additions_(scene, result_),
+        bounds_(whole) {}
 
   ObjectTextures run() {
-    for (std::size_t i = 0; i < rules_.replace.size(); ++i)
+    for (std::size_t i = 0; i < rules_.replace.size() && !options_.decal; ++i)
       named(rules_.replace[i].name, "replace", i, [&] { replace(rules_.replace[i], places_.carriers[i]); });
     for (std::size_t i = 0; i < rules_.decals.size(); ++i)
-      named(rules_.decals[i].name, "decals", i, [&] { add_decal(rules_.decals[i], places_.decals[i]); });
+      if (options_.decal.value_or(i) == i)
+        named(rules_.decals[i].name, "decals", i, [&] { add_decal(rules_.decals[i], places_.decals[i]); });
     return std::move(result_);
   }
 
@@ -218,14 +218,17 @@ class Application {
   void add_decal(const DecalRule& rule, const std::vector<PlacedSurface>& places) {
     DecalReport report;
     report.name = rule.name;
-    report.offset_mm = rule.offset_mm.value_or(std::max(k_least_offset_mm, k_offset_share * bounds_.diagonal()));
-    RgbaImage picture;
+    report.offset_mm = rule.offset_mm.value_or(
+        std::max(k_least_offset_mm, k_offset_share * options_.diagonal_mm.value_or(bounds_.diagonal())));
+    std::shared_ptr<const DecalPicture> picture;
     EncodedImage shown;
     HeightMap relief;
     if (options_.pictures) {
-      picture = read_rgba_image(rule.picture);
-      shown = png_image(fmt::format("decal.{}.{}", rule.name, result_.decals.size() + 1), picture);
-      if (rule.height) relief = relief_of_shown_picture(*rule.height, picture, rule.box.width_mm, rule.box.height_mm);
+      picture = options_.decal_picture ? options_.decal_picture(rule.picture)
+                                       : std::make_shared<const DecalPicture>(read_decal_picture(rule.picture));
+      shown = png_image(fmt::format("decal.{}.{}", rule.name, result_.decals.size() + 1), picture->png);
+      if (rule.height)
+        relief = relief_of_shown_picture(*rule.height, picture->pixels, rule.box.width_mm, rule.box.height_mm);
     }
     const BoxFrame frame(rule.box);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made;  // By part and slot.
@@ -246,7 +249,8 @@ class Application {
         const auto [it, is_new] = slot_of.try_emplace(slot, static_cast<std::uint32_t>(part.materials.size()));
         if (is_new) {
           const auto [known, is_new_material] = made.try_emplace({use.part, slot}, 0);
-          if (is_new_material) known->second = decal_material(rule, use.part, slot, picture, shown, relief, report);
+          if (is_new_material)
+            known->second = decal_material(rule, use.part, slot, picture.get(), shown, relief, report);
           part.materials.push_back(known->second);
         }
         slot = it->second;
@@ -262,13 +266,14 @@ class Application {
     result_.decals.push_back(std::move(report));
   }
 
-  std::uint32_t decal_material(const DecalRule& rule, std::uint32_t part, std::uint32_t slot, const RgbaImage& picture,
-                               const EncodedImage& shown, const HeightMap& relief, DecalReport& report) {
+  std::uint32_t decal_material(const DecalRule& rule, std::uint32_t part, std::uint32_t slot,
+                               const DecalPicture* picture, const EncodedImage& shown, const HeightMap& relief,
+                               DecalReport& report) {
     const Vec2 size{rule.box.width_mm, rule.box.height_mm};
     PictureLook look{rule.name, "decal", nullptr, nullptr, "OPAQUE", rule.roughness, rule.metallic};
-    if (!options_.pictures) return additions_.add_material(look, std::nullopt, std::nullopt, size);
+    if (picture == nullptr) return additions_.add_material(look, std::nullopt, std::nullopt, size);
     look.picture = &shown;
-    look.alpha_mode = alpha_mode_of(picture);
+    look.alpha_mode = alpha_mode_of(picture->pixels);
     std::optional<MaterialTag> tag;
     EncodedImage normals;
     if (rule.height) {
@@ -370,18 +375,13 @@ class Application {
 
   void replace_region(const CarrierRule& rule, const std::vector<SelectedUse>& uses, CarrierReport& report) {
     const BoxFrame box(*rule.box);
-    const auto is_within = [](Vec3 b) { return b.x >= 0 && b.x <= 1 && b.y >= 0 && b.y <= 1 && b.z >= 0 && b.z <= 1; };
     Part all;  // What goes, in the scene's coordinates.
     std::map<std::uint32_t, std::uint32_t> slot_of;
     std::optional<std::pair<std::uint32_t, std::uint32_t>> below;
     for (const SelectedUse& use : uses) {
       const TriangleMesh& mesh = scene_.parts[use.part].mesh;
       std::vector<Index> gone = triangles_of(mesh, use.slots);
-      std::erase_if(gone, [&](Index t) {
-        for (int k = 0; k < 3; ++k)
-          if (!is_within(box.to_box(transform_point(use.world, mesh.corner(t, k))))) return true;
-        return false;
-      });
+      std::erase_if(gone, [&](Index t) { return !is_within(mesh, t, use.world, box); });
       if (gone.empty()) continue;
       if (!below) below = {original_of(use.part), largest_slot(mesh, gone)};
       append_in_scene(use, gone, all, slot_of);
@@ -445,14 +445,14 @@ class Application {
         const Part& part = scene_.parts[number];
         const PartPicture picture =
             picture_of_part(scene_, pyramids_, part.mesh, gone, part.materials, frames.covering, rule.pixels);
-        shown = png_image(name, picture.color);
+        shown = png_image(name, png_of(picture.color));
         normals = png_image(name + ".normal", encode_png(picture.normals));
         look.alpha_mode = has_alpha(picture.color) ? "MASK" : "OPAQUE";
         if (rule.felt && tag) felt = felt_relief(scaled(picture.relief, size), max_slope_of(std::nullopt, *tag), 0);
         look.normal_map = &normals;
       } else {
         const RgbaImage picture = read_carrier_picture(rule);
-        shown = png_image(name, picture);
+        shown = png_image(name, png_of(picture));
         look.alpha_mode = alpha_mode_of(picture);
         if (rule.height) {
           if (!tag) tag.emplace();
@@ -514,6 +514,13 @@ std::vector<PlacedSurface> places_of(const SurfaceSelector& rule, const std::vec
 
 }  // namespace
 
+DecalPicture read_decal_picture(const std::filesystem::path& file) {
+  DecalPicture picture;
+  picture.pixels = read_rgba_image(file);
+  picture.png = png_of(picture.pixels);
+  return picture;
+}
+
 bool has_object_textures(const Materials& rules) { return !rules.decals.empty() || !rules.replace.empty(); }
 
 ObjectTexturePlaces find_object_textures(const Scene& scene, const Materials& rules) {
@@ -530,7 +537,13 @@ ObjectTexturePlaces find_object_textures(const Scene& scene, const Materials& ru
 
 ObjectTextures apply_object_textures(Scene& scene, const Materials& rules, const ObjectTexturePlaces& places,
                                      const ObjectTextureOptions& options) {
-  return has_object_textures(rules) ? Application(scene, rules, places, options).run() : ObjectTextures{};
+  return has_object_textures(rules) ? apply_to_piece(scene, scene_bounds(scene), rules, places, options)
+                                    : ObjectTextures{};
+}
+
+ObjectTextures apply_to_piece(Scene& piece, const Bounds3& whole, const Materials& rules,
+                              const ObjectTexturePlaces& places, const ObjectTextureOptions& options) {
+  return Application(piece, whole, rules, places, options).run();
 }
 
 }  // namespace papilla

@@ -121,6 +121,24 @@ std::vector<ClippedCorner> clip_to_unit_cube(const std::array<Vec3, 3>& corners)
   return polygon;
 }
 
+bool may_meet(const Bounds3& part, const Transform& world, const BoxFrame& frame) {
+  constexpr double k_rounding = 1e-6;  // of the box
+  if (part.is_empty()) return false;
+  Bounds3 in_box;
+  for (const double x : {part.low.x, part.high.x})
+    for (const double y : {part.low.y, part.high.y})
+      for (const double z : {part.low.z, part.high.z}) in_box.add(frame.to_box(transform_point(world, {x, y, z})));
+  return in_box.overlaps({{0, 0, 0}, {1, 1, 1}}, k_rounding);
+}
+
+bool is_within(const TriangleMesh& mesh, Index triangle, const Transform& world, const BoxFrame& frame) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 b = frame.to_box(transform_point(world, mesh.corner(triangle, k)));
+    if (!(b.x >= 0 && b.x <= 1 && b.y >= 0 && b.y <= 1 && b.z >= 0 && b.z <= 1)) return false;
+  }
+  return true;
+}
+
 DecalPatch cut_decal(const TriangleMesh& mesh, const std::vector<std::uint32_t>& slots, const Transform& world,
                      const BoxFrame& frame, double max_angle_deg, double offset_mm) {
   DecalPatch patch;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/pipeline/object_texture_rules.hpp"
 
@@ -34,6 +35,13 @@ struct ClippedCorner {
 /// [Sutherland and Hodgman, Reentrant polygon clipping, 1974]. Coordinates cut at a face are 0 or 1 exactly; two
 /// triangles with the same edge get the same corners on it, bit for bit.
 std::vector<ClippedCorner> clip_to_unit_cube(const std::array<Vec3, 3>& corners);
+
+/// Whether what lies in `part`, shown with `world`, may reach into the box: false is certain, also where it was rounded
+/// to single precision.
+bool may_meet(const Bounds3& part, const Transform& world, const BoxFrame& frame);
+
+/// Whether all of a triangle lies in the box. @param world  of the use.
+bool is_within(const TriangleMesh& mesh, Index triangle, const Transform& world, const BoxFrame& frame) noexcept;
 
 /// What of a surface lies in a box.
 struct DecalPatch {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "../parse_json.hpp"
+#include "../json_value.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla {
@@ -54,7 +54,9 @@ fs::path AllowedFolders::file(const fs::path& path, const fs::path& base) const 
   const auto refuse = [&](const char* reason) -> fs::path { throw InvalidInput("'" + path.string() + "': " + reason); };
   std::error_code error;
   if (path.empty() || path.native().find('\0') != std::string::npos) return refuse("is no path");
-  const fs::path real = fs::weakly_canonical(fs::absolute(base / path), error);
+  fs::path real = fs::weakly_canonical(fs::absolute(base / path), error);
+  if (error == std::errc::filename_too_long)  // No file has this name; a recipe may be as long.
+    real = (fs::weakly_canonical(fs::absolute(base), error) / path).lexically_normal();
   if (error) return refuse("leads nowhere");
   if (std::none_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) { return is_below(real, folder); }))
     return refuse("leads out of the folders that the studio was started with");

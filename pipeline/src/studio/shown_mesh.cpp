@@ -109,4 +109,20 @@ ShownMesh shown_mesh(const TriangleMesh& mesh, const DistortionReport& report) {
   return shown;
 }
 
+TriangleMesh triangle_mesh(const ShownMesh& shown) {
+  const auto vec3_at = [](const std::vector<float>& values, std::size_t i) {
+    return Vec3{double{values[3 * i]}, double{values[3 * i + 1]}, double{values[3 * i + 2]}};
+  };
+  TriangleMesh mesh;
+  for (std::size_t i = 0; 3 * i < shown.positions.size(); ++i) {
+    mesh.positions.push_back(vec3_at(shown.positions, i));
+    mesh.normals.values.push_back(vec3_at(shown.normals, i));
+    mesh.uv.values.push_back({double{shown.uv[2 * i]}, double{shown.uv[2 * i + 1]}});
+  }
+  for (std::size_t i = 0; i < shown.indices.size(); i += 3)
+    mesh.triangles.push_back({shown.indices[i], shown.indices[i + 1], shown.indices[i + 2]});
+  mesh.normals.indices = mesh.uv.indices = mesh.triangles;
+  return mesh;
+}
+
 }  // namespace papilla

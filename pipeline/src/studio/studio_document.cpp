@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "../parse_json.hpp"
+#include "../json_value.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla {
@@ -14,7 +14,10 @@ using Json = JsonValue::Json;
 
 constexpr const char* k_materials = "materials";
 constexpr const char* k_assign = "assign";
+constexpr const char* k_decals = "decals";
+constexpr const char* k_carriers = "replace";
 constexpr const char* k_comment = "$comment";
+constexpr const char* k_except = "not";
 constexpr const char* k_material = "material";
 constexpr int k_indent = 2;
 
@@ -22,7 +25,7 @@ Json selector_json(const SurfaceSelector& selector) {
   Json json = Json::object();
   for (const SelectorKey& key : selector_keys())
     if (const auto& pattern = selector.*key.pattern) json[std::string(key.name)] = *pattern;
-  for (const SurfaceSelector& exception : selector.except) json["not"].push_back(selector_json(exception));
+  for (const SurfaceSelector& exception : selector.except) json[k_except].push_back(selector_json(exception));
   return json;
 }
 
@@ -55,6 +58,12 @@ class Editor {
       case StudioEdit::Kind::set: change(existing(edit_.material)); break;
       case StudioEdit::Kind::add: add(); break;
       case StudioEdit::Kind::remove: remove(); break;
+      case StudioEdit::Kind::add_decal: add_to(k_decals); break;
+      case StudioEdit::Kind::set_decal: change_picture(existing_of(k_decals)); break;
+      case StudioEdit::Kind::remove_decal: remove_from(k_decals); break;
+      case StudioEdit::Kind::add_carrier: add_to(k_carriers); break;
+      case StudioEdit::Kind::set_carrier: change_picture(existing_of(k_carriers)); break;
+      case StudioEdit::Kind::remove_carrier: remove_from(k_carriers); break;
     }
     return json_.dump(k_indent) + "\n";
   }
@@ -179,6 +188,38 @@ class Editor {
     for (const Json& rule : rules())
       if (!rule.is_object() || !rule.contains(k_material) || rule[k_material] != edit_.material) kept.push_back(rule);
     rules() = std::move(kept);
+  }
+
+  // Lists of pictures on the scene.
+
+  Json& existing_of(const char* list) {
+    require(json_.contains(list) && json_[list].is_array() && edit_.number < json_[list].size() &&
+                json_[list][edit_.number].is_object(),
+            "", "there is no entry " + std::to_string(edit_.number) + " of '" + list + "'");
+    return json_[list][edit_.number];
+  }
+
+  void change_picture(Json& entry) const {
+    if (edit_.onto) {
+      for (const SelectorKey& key : selector_keys()) entry.erase(std::string(key.name));
+      entry.erase(k_except);
+      entry.update(selector_json(*edit_.onto));
+    }
+    change(entry);
+  }
+
+  void add_to(const char* list) {
+    if (!json_.contains(list)) json_[list] = Json::array();
+    require(json_[list].is_array(), std::string("/") + list, "must be an array");
+    Json entry = Json::object();
+    change_picture(entry);
+    json_[list].push_back(std::move(entry));
+  }
+
+  void remove_from(const char* list) {
+    existing_of(list);
+    json_[list].erase(edit_.number);
+    if (json_[list].empty()) json_.erase(list);
   }
 
   const StudioEdit& edit_;

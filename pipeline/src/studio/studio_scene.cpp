@@ -6,16 +6,20 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
+#include <tuple>
 
-#include "../parse_json.hpp"
+#include "../json_value.hpp"
 #include "../prepared_bake.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/node_places.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/pipeline/studio/parse_materials.hpp"
+#include "studio/made_surface.hpp"
 
 namespace papilla {
 namespace {
@@ -49,45 +53,41 @@ std::string escaped(const std::string& name) {
 
 /// A material's JSON without what its grain does not depend on.
 std::string grain_key(Json material) {
-  if (material.is_object()) material.erase("unwrap"), material.erase("$comment");
+  if (material.is_object()) material.erase("unwrap"), material.erase("phase_mm"), material.erase("$comment");
   return material.dump();
 }
 
-/// Lets a material name the pictures of another scene, which are taken along.
-class Pictures {
- public:
-  Pictures(const Scene& from, Scene& to) : from_(from), to_(to) {}
+/// The mesh on its second texture coordinates where a tag lies on those.
+std::optional<ShownMesh> tagged_mesh(const Scene& scene) {
+  const Part& part = scene.parts[0];
+  if (part.materials.empty()) return std::nullopt;
+  const auto& tag = scene.materials[part.materials[0]].haptic;
+  if (!tag || tex_coord_of(*tag) != 1) return std::nullopt;
+  TriangleMesh mesh = part.mesh;
+  mesh.uv = mesh.uv1;
+  return shown_mesh(mesh);
+}
 
-  void take(std::optional<TextureReference>& reference) {
-    if (!reference) return;
-    const auto [place, is_new] = textures_.try_emplace(reference->texture, to_.textures.size());
-    if (is_new) {
-      Texture texture = from_.textures.at(reference->texture);
-      if (texture.image) texture.image = image(*texture.image);
-      for (OtherImage& other : texture.others) other.image = image(other.image);
-      to_.textures.push_back(std::move(texture));
-    }
-    reference->texture = static_cast<std::uint32_t>(place->second);
-  }
-
- private:
-  std::uint32_t image(std::uint32_t number) {
-    const auto [place, is_new] = images_.try_emplace(number, to_.images.size());
-    if (is_new) to_.images.push_back(from_.images.at(number));
-    return static_cast<std::uint32_t>(place->second);
-  }
-
-  const Scene& from_;
-  Scene& to_;
-  std::map<std::uint32_t, std::size_t> textures_, images_;
-};
-
-/// The look that is left when the mesh was taken.
-std::shared_ptr<const Scene> look_of(Scene scene) {
+/// Takes over the mesh of a scene of one part, and the look that is left.
+void take_shown(Scene scene, StudioSurface& surface) {
+  surface.mesh = shown_mesh(scene.parts[0].mesh, surface.report.distortion);
+  surface.tagged_mesh = tagged_mesh(scene);
   scene.parts.clear();
   scene.nodes.clear();
   scene.roots.clear();
-  return std::make_shared<const Scene>(std::move(scene));
+  surface.look = std::make_shared<const Scene>(std::move(scene));
+}
+
+/// What carriers leave of a surface depends on this. @param replace of the document.
+std::string without(const Materials& rules, const Json& replace, const StudioWish& wish) {
+  if (wish.carriers.empty()) return {};
+  std::string text;
+  for (const std::size_t i : wish.carriers) {
+    if (!rules.replace[i].box) return "\nwithout all";
+    text += "\nwithout " + std::to_string(wish.uses.front());
+    for (const char* key : {"at", "direction", "up", "size_mm", "depth_mm"}) text += " " + replace.at(i).at(key).dump();
+  }
+  return text;
 }
 
 }  // namespace
@@ -109,9 +109,12 @@ StudioScene::StudioScene(Scene scene, const BakeOptions& options, bool in_place)
   const auto& view = options_.plan.perception.view;
   const SceneSides found = in_place ? find_sides(scene_, sides, view) : turn_sheets(scene_, sides, view);
   if (found.viewpoint == Viewpoint::inside || found.viewpoint == Viewpoint::room) eye_ = found.eye;
+  for (const Part& part : scene_.parts) bounds_.push_back(bounds_of(part.mesh));
+  scene_box_ = scene_bounds(scene_);
   context_ = unwrap_context(scene_, {});
   in_place_ = in_place;
   options_.plan.sides.keep = true;
+  shares_copies_ = !options_.plan.keep_copies;
   options_.plan.keep_copies = true;
   options_.plan.perception = {};
   options_.plan.budget.reset();
@@ -129,37 +132,60 @@ std::vector<SurfaceSelector> StudioScene::selectors(std::uint32_t part, std::uin
     if (std::count_if(slots_[part].begin(), slots_[part].end(), has_name) > 1)
       common.cad_colour = hex_colour(material.base_color);
   }
-  const std::string& name = shown_name(wanted);
-  const auto is_named_so = [&](const Part& other) { return shown_name(other) == name; };
-  if (std::count_if(skeleton_.parts.begin(), skeleton_.parts.end(), is_named_so) == 1) {
-    common.part = escaped(name);
-    return {common};
-  }
+  common.part = escaped(shown_name(wanted));
+  if (is_only_of_its_name(part)) return {common};
   std::vector<SurfaceSelector> selectors;
   for (const StudioUse& use : uses_) {
     if (use.part != part) continue;
     selectors.push_back(common);
-    selectors.back().part = escaped(name);
     selectors.back().node = escaped(use.path);
   }
   return selectors;
+}
+
+bool StudioScene::is_only_of_its_name(std::uint32_t part) const {
+  const std::string& name = shown_name(skeleton_.parts.at(part));
+  return std::count_if(skeleton_.parts.begin(), skeleton_.parts.end(),
+                       [&](const Part& other) { return shown_name(other) == name; }) == 1;
+}
+
+SurfaceSelector StudioScene::selector_of_use(std::uint32_t use) const {
+  const StudioUse& wanted = uses_.at(use);
+  SurfaceSelector selector;
+  selector.part = escaped(shown_name(skeleton_.parts.at(wanted.part)));
+  if (!is_only_of_its_name(wanted.part)) selector.node = escaped(wanted.path);
+  return selector;
 }
 
 StudioPlan StudioScene::plan(const std::string& document, const std::filesystem::path& path,
                              const std::filesystem::path& library) const {
   StudioPlan plan;
   plan.rules = parse_materials(document, path, library);
-  const Json materials = parse_json(document, path.string()).at("materials");
+  const Json json = parse_json(document, path.string()), materials = json.at("materials");
   Scene skeleton = skeleton_;
   const Assignment assignment = assign_materials(skeleton, plan.rules);
   plan.uses = assignment.uses;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> known;  // By part of the skeleton, and slot.
+  const ObjectTexturePlaces places = find_object_textures(skeleton_, plan.rules);
+  const CarriersOf carriers_at = carriers_of(plan.rules, places);
+  const Json replace = json.value("replace", Json::array());
+  std::vector<std::uint32_t> parts;  // Of the skeleton, of each use.
+  // By part of the skeleton, slot, carriers, and use where a region takes a part of it.
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::vector<std::size_t>, std::optional<std::uint32_t>>,
+           std::size_t>
+      known;
   for (std::uint32_t u = 0; u < uses_.size(); ++u) {
     const std::uint32_t original = uses_[u].part, part = skeleton.nodes[uses_[u].node].part.value_or(original);
+    parts.push_back(part);
     for (const std::uint32_t slot : slots_[original]) {
-      const auto [place, is_new] = known.try_emplace({part, slot}, plan.wishes.size());
+      const auto taken = carriers_at.find({uses_[u].node, slot});
+      const std::vector<std::size_t> carriers = taken == carriers_at.end() ? std::vector<std::size_t>() : taken->second;
+      const bool by_regions = !carriers.empty() && std::all_of(carriers.begin(), carriers.end(), [&](std::size_t i) {
+        return plan.rules.replace[i].box.has_value();
+      });
+      const auto alone = by_regions ? std::optional(u) : std::nullopt;
+      const auto [place, is_new] = known.try_emplace({part, slot, carriers, alone}, plan.wishes.size());
       if (is_new) {
-        StudioWish wish{original, slot, {}, {}, {}, {}, {}};
+        StudioWish wish{original, slot, {u}, {}, {}, {}, {}, carriers};
         const Part& shown = skeleton.parts[part];
         wish.label = assignment.parts[part].is_split ? shown.id : shown_name(shown);
         if (slots_[original].size() > 1)
@@ -168,12 +194,19 @@ StudioPlan StudioScene::plan(const std::string& document, const std::filesystem:
         if (const MaterialRule* rule = assignment.parts[part].rule_of(slot)) wish.material = rule->name;
         wish.key = std::to_string(original) + "/" + std::to_string(slot);
         if (!wish.material.empty()) wish.rule = materials.at(wish.material).dump();
-        wish.key += " " + wish.label + " " + wish.material + " " + wish.rule;
+        wish.key += " " + wish.label + " " + wish.material + " " + wish.rule + without(plan.rules, replace, wish);
         plan.wishes.push_back(std::move(wish));
+      } else {
+        plan.wishes[place->second].uses.push_back(u);
       }
-      plan.wishes[place->second].uses.push_back(u);
     }
   }
+  std::vector<std::string> decals;
+  for (const Json& decal : json.value("decals", Json::array())) decals.push_back(decal.dump());
+  plan.decals = decal_wishes(plan.rules, places, decals, plan.wishes);
+  if (plan.rules.replace.empty()) return plan;
+  plan.carriers = carrier_wish(replace.dump(), parts, plan.wishes);
+  plan.carriers->selected = places.carrier_uses;
   return plan;
 }
 
@@ -196,10 +229,7 @@ Scene StudioScene::piece(std::uint32_t number, std::uint32_t slot, const std::st
   own.mesh.material.clear();
   if (slot < part.materials.size()) {
     Material material = scene_.materials[part.materials[slot]];
-    Pictures pictures(scene_, scene);
-    for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture,
-                            &material.normal_texture, &material.occlusion_texture, &material.emissive_texture})
-      pictures.take(*reference);
+    TakenPictures(scene_, scene).take_all(material);
     material.extensions_json.clear();  // They name textures by numbers of the whole scene.
     scene.materials.push_back(std::move(material));
     own.materials = {0};
@@ -219,7 +249,7 @@ Grain StudioScene::grain_of(const std::string& key, const MaterialRule& rule) {
     grains_.splice(grains_.begin(), grains_, known);
   } else {
     grains_.emplace_front(
-        key, make_grain(rule, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache));
+        key, make_shown_grain(rule, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache));
     if (grains_.size() > k_most_grains) grains_.pop_back();
   }
   return grains_.front().second;
@@ -231,17 +261,20 @@ StudioSurface StudioScene::as_read(std::uint32_t part, std::uint32_t slot) const
   surface.part = part, surface.slot = slot;
   surface.label = shown_name(scene_.parts[part]);
   surface.key = std::to_string(part) + "/" + std::to_string(slot);
-  surface.mesh = shown_mesh(scene.parts[0].mesh);
-  surface.look = look_of(std::move(scene));
+  take_shown(std::move(scene), surface);
   return surface;
 }
 
 StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, const ProgressCallback& progress) {
   const Stopwatch clock;
   if (wish.material.empty()) {
-    StudioSurface surface = as_read(wish.part, wish.slot);
+    Scene scene = piece(wish.part, wish.slot, {});
+    StudioSurface surface;
+    surface.part = wish.part, surface.slot = wish.slot;
     surface.label = wish.label;
     surface.key = wish.key;
+    take_out(plan, wish, scene.parts[0].mesh, surface);
+    take_shown(std::move(scene), surface);
     surface.seconds = clock.seconds();
     return surface;
   }
@@ -269,13 +302,13 @@ StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, 
     surface.report = std::move(result.surfaces.front());
     surface.report.part = wish.part, surface.report.slot = wish.slot;
   }
-  surface.mesh = shown_mesh(result.scene.parts[0].mesh, surface.report.distortion);
   surface.report.mesh = {};
-  surface.report.distortion.per_triangle.clear();
   if (!result.scene.parts[0].materials.empty())
     surface.mm_per_uv = result.mm_per_uv.at(result.scene.parts[0].materials[0]);
   surface.warnings = result.scene.warnings;
-  surface.look = look_of(std::move(result.scene));
+  take_out(plan, wish, result.scene.parts[0].mesh, surface);
+  take_shown(std::move(result.scene), surface);
+  surface.report.distortion.per_triangle.clear();
   surface.seconds = clock.seconds();
   return surface;
 }

@@ -251,6 +251,14 @@ ColorImage color_of(const SurfacePicture& picture) {
   return image;
 }
 
+std::vector<unsigned char> with_alpha(const ColorImage& image) {
+  std::vector<unsigned char> rgba(image.pixels.size() / 3 * 4, 255);
+  for (std::size_t i = 0; 3 * i < image.pixels.size(); ++i)
+    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  return rgba;
+}
+
 std::vector<std::byte> encode_color(const PaintedSurface& surface) {
   const SurfacePicture& picture = surface.picture;
   if (surface.ranges.alpha.is_constant()) return encode_png(color_of(picture));

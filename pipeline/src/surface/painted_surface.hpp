@@ -85,6 +85,9 @@ Shine shine_of(const PaintedSurface& surface, std::optional<double> roughness = 
 /// The base colour without alpha.
 ColorImage color_of(const SurfacePicture& picture);
 
+/// The pixels as RGBA, opaque.
+std::vector<unsigned char> with_alpha(const ColorImage& image);
+
 /// The base colour as PNG, with alpha where that differs from place to place.
 std::vector<std::byte> encode_color(const PaintedSurface& surface);
 

@@ -43,12 +43,14 @@ class StageCache {
   ///                becomes an entry of both. Null: there is none.
   explicit StageCache(ContentStore store, const StageCache* shared = nullptr);
   ~StageCache();
+  /// The same stores, nothing counted: for a forked child, where this one may stay locked by a thread that is not
+  /// there.
+  std::unique_ptr<StageCache> for_child() const;
   StageCache(const StageCache&) = delete;
   StageCache& operator=(const StageCache&) = delete;
 
   const ContentStore& store() const noexcept { return store_; }
-  CacheCounts counts() const;       ///< Of all calls so far.
-  CacheCounts take_counts() const;  ///< The same, and begins anew.
+  CacheCounts counts() const;  ///< Of all calls so far.
   std::string problem() const;
   /// Stage and key of every result that was found or put, in no order.
   std::vector<std::pair<std::string, Digest>> results() const;
@@ -92,6 +94,7 @@ class StageCache {
   void refused(const char* reason) const;
 
   ContentStore store_;
+  std::unique_ptr<StageCache> own_shared_;  ///< Of for_child().
   const StageCache* shared_;
   struct Counts;
   std::unique_ptr<Counts> counts_;

@@ -38,4 +38,7 @@ void note_output(const std::filesystem::path& path);
 /// Lets a program that builds again and again write its outputs once more.
 void forget_written_outputs();
 
+/// Notes and refuses nothing more: for programs in which people open, change and save the same files.
+void end_file_guard();
+
 }  // namespace papilla

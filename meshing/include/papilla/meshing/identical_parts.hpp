@@ -39,10 +39,10 @@ struct PartCopy {
 /// same orientation (and the same attributes). Mirror images are therefore different unless the part is its own mirror
 /// image. The order of vertices and triangles does not matter. TriangleMesh::face and cad_uv are not compared.
 /// Not found: copies tessellated differently, scaled copies, and pairs whose symmetry needs more than `most_trials`.
-/// Method: parts with equal counts and area are laid on each other by their centre of area and two vertices, at the
-/// rarest distances from it; every pair of vertices of the other part at those distances is tried, the ones with the
-/// same numbers first, until the check passes. Cost: O(n log n) a part and per pair of equal counts and area;
-/// deterministic.
+/// Method: parts with equal counts, area and distances from the centre are laid on each other by their centre of area
+/// and two vertices, at the rarest distances from it; every pair of vertices of the other part at those distances is
+/// tried, the ones with the same numbers first, until the check passes. Cost: O(n log n) a part and per pair of equal
+/// counts and area; deterministic.
 /// @throws InvalidInput naming the part when a mesh is missing or has a bad index or coordinate; also when an option is
 ///         out of its range.
 std::vector<PartCopy> find_identical_parts(std::span<const ComparedPart> parts, const IdenticalOptions& options = {});

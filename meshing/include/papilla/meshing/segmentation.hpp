@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/meshing/chart_set.hpp"
@@ -23,6 +25,14 @@ struct SegmentationOptions {
   bool disks = true;        ///< Every chart a disk. Else holes stay that a flat sheet could have: they need no cut.
   bool unfold = true;       ///< Charts may go on over feature edges where they unfold into the plane.
   double union_trials = 1;  ///< How many unions that need a solve are tried, of the usual number; >= 0.
+  /// A seam costs λ w |e| √A of the whole surface, wherever it is, instead of λ w |e| √A_c: what minimises the sum of
+  /// all seams for a given sum of distortion.
+  bool common_price = false;
+  bool feature_seams = true;  ///< Feature edges are the first seams; false: only what topology and distortion ask for.
+  bool weigh_seams = true;    ///< Seams count by how visible they are; false: w = 1, by their length alone.
+  /// Given: what can't be seen from there counts as hidden, o = 0.2, all else as open, o = 1; in the mesh's
+  /// coordinates.
+  std::optional<Vec3> eye = {};
   /// The direction in the surface in which grain should run at a place with this outward normal. When given, charts are
   /// joined over feature edges only where the grain goes on in its direction.
   std::function<Vec3(Vec3)> grain = {};
@@ -84,6 +94,11 @@ class ChartSegmenter {
 
   /// What segment_charts() gives. @throws InvalidInput as segment_charts().
   SegmentationResult segment(const SegmentationOptions& options) const;
+
+  /// What a seam along each half-edge (3 t + k) costs: w |e|, by `feature_angle_deg`, `weigh_seams` and `eye`; 0 on
+  /// edges that are always borders. The same on both sides of an edge. O(n), with an eye O(n log n).
+  /// @throws InvalidInput as segment_charts().
+  std::vector<double> seam_costs(const SegmentationOptions& options) const;
 
  private:
   struct Surface;

@@ -20,8 +20,9 @@ struct SheetEntry {
   std::string text;                    ///< The library's entry of that name, else the recipe.
   std::vector<std::string> uses;       ///< Recipes of the library that it is built from.
   double low = 0, high = 0, mean = 0;  ///< Of the height.
-  double seam = 0;    ///< Largest step across the border over the largest step within; about 1 where it tiles.
-  std::string error;  ///< Why it has no picture.
+  double seam = 0;      ///< Largest step across the border over the largest step within; about 1 where it tiles.
+  double exposure = 1;  ///< That its tile is brightened by, 1 to 3: dark materials show their structure, too.
+  std::string error;    ///< Why it has no picture.
 };
 
 /// White pixels between the tiles and around them.
@@ -33,7 +34,7 @@ struct ContactSheet {
   int columns = 0;
 };
 
-/// Pictures of recipes side by side, each in the light of its own recipe.
+/// Pictures of recipes side by side, each in the light of its own recipe, dark ones brightened.
 /// @pre side >= 8.
 ContactSheet make_contact_sheet(const std::vector<NamedRecipe>& recipes, const RecipeLibrary& library,
                                 const CompileOptions& options, int side, const ProgressCallback& progress = {});

@@ -50,6 +50,7 @@ struct GrainLattice {
 struct Grain {
   std::string source;          ///< The picture's file, or the recipe.
   ColorImage photograph;       ///< The source as a picture, whether shown or not.
+  Vec2 photograph_mm{0, 0};    ///< What all of it shows; the relief may be a tile of that.
   double size_mm[2] = {0, 0};  ///< What one repeat of the relief measures, and of the picture when it is shown.
   bool tiles = false;          ///< The picture's borders match.
   bool solid = false;          ///< Its recipe reads position, normal or sky: a scene gets an atlas of it.
@@ -96,12 +97,18 @@ double default_max_slope(double static_friction);
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin(),
                  const Deadline& deadline = {}, const StageCache* cache = nullptr);
 
+/// What of make_grain() is seen and felt, sooner: of recipes and test grains, whose relief is computed, class,
+/// lattice and fractal dimension are not looked for, unless the cache knows them. All else is the same.
+/// @throws as make_grain().
+Grain make_shown_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin(),
+                       const Deadline& deadline = {}, const StageCache* cache = nullptr);
+
 /// The tag of a surface: of its grain, which may be null, and the rule's constants.
 /// @param kept_mm_per_unit  of uv that stay, on which a transform brings the grain to its scale; 0: the uv are repeats.
 MaterialTag surface_tag(const MaterialRule& rule, const Grain* grain, double kept_mm_per_unit);
 
-/// The transform of uv of `mm_per_unit` to repeats of the grain.
-UvTransform transform_to_repeats(const Grain& grain, double mm_per_unit);
+/// The transform of uv of `mm_per_unit` to repeats of the grain, moved by the rule's phase.
+UvTransform transform_to_repeats(const MaterialRule& rule, const Grain& grain, double mm_per_unit);
 
 /// Copies the rule's haptic constants into a tag. @param stiffness_factor, damping_factor  multiply them, the rule's or
 /// the tag's own.

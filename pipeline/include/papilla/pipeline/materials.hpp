@@ -55,6 +55,7 @@ struct MaterialRule {
   std::string recipe;             ///< What the file has as texture, in case it is a recipe or a grain.
   double time = 0;                ///< Of a recipe: 0 new to 1 worn.
   double size_mm[2] = {0, 0};     ///< Width and height that the picture shows; 0: from the picture's own resolution.
+  Vec2 phase_mm{0, 0};            ///< Moves the grain on the surface along u and v.
   std::optional<double> stiffness;  ///< N/m
   std::optional<double> damping;    ///< N·s/m
   std::optional<double> static_friction, dynamic_friction, stribeck_velocity;

@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/rgba_image.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/pipeline/materials.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
@@ -54,7 +57,7 @@ struct CarrierReport {
 };
 
 struct ObjectTextures {
-  std::vector<DecalReport> decals;
+  std::vector<DecalReport> decals;  ///< Of the rules in their order; with ObjectTextureOptions::decal of that one.
   std::vector<CarrierReport> carriers;
   std::vector<Vec2> mm_per_uv;  ///< Of the materials that were appended, in their order.
 };
@@ -62,9 +65,23 @@ struct ObjectTextures {
 /// The constants of what hands feel on a surface of the scene; nothing: it is not felt.
 using SurfaceConstants = std::function<std::optional<MaterialTag>(std::uint32_t part, std::uint32_t slot)>;
 
+/// The picture of a decal, read once.
+struct DecalPicture {
+  RgbaImage pixels;
+  std::vector<std::byte> png;  ///< Without alpha where it has none.
+};
+
+/// @throws IoError, InvalidInput as read_rgba_image().
+DecalPicture read_decal_picture(const std::filesystem::path& file);
+
 struct ObjectTextureOptions {
   bool pictures = true;        ///< False: triangles alone, of which the report is made, as for a plan.
   SurfaceConstants constants;  ///< Empty: those of an empty tag.
+  /// Pictures of decals by their files; empty: read_decal_picture().
+  std::function<std::shared_ptr<const DecalPicture>(const std::filesystem::path&)> decal_picture = {};
+  std::optional<std::size_t> decal = std::nullopt;  ///< Of all rules the decal of this number alone.
+  /// Of the scene of which this one is a piece: the offsets are that one's.
+  std::optional<double> diagonal_mm = std::nullopt;
 };
 
 /// Puts pictures in the place of surfaces, then decals onto what is left.

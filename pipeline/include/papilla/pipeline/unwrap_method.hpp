@@ -10,6 +10,7 @@
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/param/automatic.hpp"
 #include "papilla/param/best.hpp"
+#include "papilla/param/bounded_seams.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/levy.hpp"
 #include "papilla/param/lscm.hpp"
@@ -121,6 +122,12 @@ const std::vector<UnwrapMethod>& methods_of_option(const std::string& option);
 /// Why the option means nothing to the method: "is of maillot, not of best"; empty when it does.
 std::string foreign_option(const std::string& option, UnwrapMethod method);
 
+/// "D", the mean, or "pNN=D", a percentile, as a bound with D from 4 to 1e6; nothing for a text that is neither.
+std::optional<DistortionBound> distortion_bound(const std::string& text);
+
+/// The bound as distortion_bound() reads it.
+std::string distortion_bound_name(const DistortionBound& bound);
+
 /// The efforts by the names that the command line has for them.
 const std::map<std::string, UnwrapEffort>& unwrap_efforts();
 
@@ -163,6 +170,8 @@ struct MethodOptions {
   ChartSource charts = ChartSource::automatic;
   SegmentationOptions segmentation;
   bool choose_seam_cost = true;  ///< choose_seam_cost() where the effort allows it; false: as segmentation says.
+  /// Given: keep_bound() finds the charts, instead of a seam cost. Of automatic and best with charts of their own.
+  std::optional<DistortionBound> max_distortion;
   NaturalOptions natural;
   IntermediateOptions intermediate;
   PlanarOptions planar;
@@ -188,20 +197,31 @@ struct MethodOptions {
 /// The patterns of part names that the grains, pins and lines have.
 std::vector<std::string> named_parts(const MethodOptions& options);
 
+/// What became of a bound.
+struct BoundReport {
+  DistortionBound bound;
+  bool kept = false;
+  double distortion = 0;          ///< bounded_distortion() of the part.
+  double seam_mm = 0;             ///< Length of its seams.
+  double seam_cost_mm = 0;        ///< The same, by how visible they are.
+  std::vector<SeamSample> trace;  ///< Of the maps that were tried.
+};
+
 struct FlattenedPart {
   Flattening flattening;             ///< uv in millimetres (environment: in textures), not placed yet.
   std::string method, reason;        ///< Of the part: the method that was taken, and, when it was chosen, why.
   std::vector<ChartChoice> choices;  ///< Of automatic, levy and maillot: per chart.
   double segment_seconds = 0;
+  std::optional<BoundReport> bound;  ///< With MethodOptions::max_distortion, unless the part was projected.
 };
 
 /// Charts and maps one part. Equal positions must be one vertex. Charts that the method can't map, or that best
 /// distorts beyond worth_halving(), are halved a few times before another map takes their place. Automatic takes
 /// triplanar for parts that are smaller than one repeat of the grain, and for small ones among many under fine grain;
 /// else a method for every chart. Charts of uv are neither halved nor joined; those that the method can't map get the
-/// map of best, with a note.
+/// map of best, with a note. With a bound, keep_bound() makes the charts, and nothing is halved that keeps it.
 /// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts;
-/// InvalidInput for charts of uv where triangles have none.
+/// InvalidInput for charts of uv where triangles have none, and for a bound on maps of other methods or given charts.
 FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options);
 
 }  // namespace papilla

@@ -23,6 +23,9 @@ enum class TextureKind {
 /// The kind's name as reports print it, for example "strongly_ordered_symmetric".
 std::string_view to_string(TextureKind kind) noexcept;
 
+/// Shares of the variance that repeats from which classify() calls a picture strongly ordered, and composite.
+inline constexpr double k_strong_share = 0.5, k_composite_share = 0.15;
+
 /// Shares of a picture's variance by order; they add up to 1.
 struct TextureClass {
   TextureKind kind = TextureKind::disordered;
@@ -49,10 +52,10 @@ using AnalysisPlan = std::vector<PlanStep>;
 
 /// Class of a picture from the variance its lattice explains (0 without lattice), the share that repeats in one
 /// direction only (Lattice::stripes), and the coherence of its structure tensor. strongly_ordered_symmetric from an
-/// explained share of 0.5 on, composite from 0.15 on; strongly_ordered_nonsymmetric where stripes repeat from 0.5 on;
-/// weakly_ordered from a coherence of 0.4 on. Elements placed by a rule without any translation (bricks of different
-/// size) count as disordered.
-/// Cost: O(pixels). @throws InvalidInput when the picture is empty or not finite.
+/// explained share of k_strong_share on, composite from k_composite_share on; strongly_ordered_nonsymmetric where
+/// stripes repeat from k_strong_share on; weakly_ordered from a coherence of 0.4 on. Elements placed by a rule without
+/// any translation (bricks of different size) count as disordered. Cost: O(pixels). @throws InvalidInput when the
+/// picture is empty or not finite.
 TextureClass classify(const GreyImage& image, double explained_variance, double stripes = 0);
 
 /// Local orientation of a weakly ordered texture, block by block.

@@ -21,6 +21,9 @@ struct IsolatedWork {
 /// Runs `work` in a child process and hands over what it sends, reports or throws. When the child crashes,
 /// hangs or runs out of memory, throws InvalidInput that names the file and the progress made.
 ///
+/// The child is forked and has none of the caller's other threads: `run` and `send` must take no lock that one of those
+/// may hold at that moment. The system's malloc, and the operator new of the program papilla, are free for them.
+///
 /// The child may use four fifths of the machine's memory, and the processor time that it allows itself. Its standard
 /// streams lead nowhere.
 void run_isolated(const IsolatedWork& work, const ProgressCallback& progress);

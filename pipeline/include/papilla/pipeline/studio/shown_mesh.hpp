@@ -24,4 +24,7 @@ struct ShownMesh {
 /// @param report of measure_distortion() with its triangles, or without: then nothing is measured.
 ShownMesh shown_mesh(const TriangleMesh& mesh, const DistortionReport& report = {});
 
+/// What is shown as a mesh of one slot, whose corners have normals and uv.
+TriangleMesh triangle_mesh(const ShownMesh& shown);
+
 }  // namespace papilla

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,16 +16,26 @@ namespace papilla {
 /// command line makes of the file, too.
 struct StudioEdit {
   enum class Kind {
-    assign,  ///< The surfaces get `material`; empty: they are left alone.
-    vary,    ///< The surfaces, which have `material`, get a material of their own that differs by `values`.
-    set,     ///< `values` of `material`, for all surfaces that have it.
-    add,     ///< A new material of the name `material` with `values`.
-    remove   ///< `material` and the rules that assign it.
+    assign,         ///< The surfaces get `material`; empty: they are left alone.
+    vary,           ///< The surfaces, which have `material`, get a material of their own that differs by `values`.
+    set,            ///< `values` of `material`, for all surfaces that have it.
+    add,            ///< A new material of the name `material` with `values`.
+    remove,         ///< `material` and the rules that assign it.
+    add_decal,      ///< A new decal with `values`, the last of them.
+    set_decal,      ///< `values` of the decal of the number `number`.
+    remove_decal,   ///< The decal of the number `number`.
+    add_carrier,    ///< A new entry of "replace" with `values`, the last of them.
+    set_carrier,    ///< `values` of the entry of the number `number`.
+    remove_carrier  ///< The entry of the number `number`.
   };
   Kind kind = Kind::assign;
   std::vector<SurfaceSelector> surfaces;
   std::string material;
-  /// By JSON pointer within the material ("/size_mm"): a value as JSON; "null" takes the key away.
+  std::size_t number = 0;  ///< Of a decal or carrier, from 0.
+  /// Of decals and carriers: the surfaces that it is for from now on, a selector without any key for all; null: as
+  /// before.
+  std::optional<SurfaceSelector> onto;
+  /// By JSON pointer within the material, decal or carrier ("/size_mm"): a value as JSON; "null" takes the key away.
   std::map<std::string, std::string> values;
   std::string title;  ///< For people: what is undone.
 };
@@ -36,8 +47,8 @@ std::string empty_studio_document();
 /// before all others and replaces an earlier one for the same. A material that `vary` made for these surfaces alone is
 /// varied itself, not once more.
 /// @param document valid JSON of MATERIALS.json. @param name stands for the file in messages.
-/// @throws InvalidInput when the document is no such JSON, a material is missing, or one of that name is there already.
-/// What values may be is parse_materials()' affair. Cost: O(document).
+/// @throws InvalidInput when the document is no such JSON, a material, decal or carrier is missing, or a material of
+/// that name is there already. What values may be is parse_materials()' affair. Cost: O(document).
 std::string edited_document(const std::string& document, const StudioEdit& edit, const std::string& name);
 
 /// Documents one after the other, with a way back and forth.

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "papilla/core/deadline.hpp"
+#include "papilla/core/progress.hpp"
+#include "papilla/param/chart_choice.hpp"
+#include "papilla/param/flattening.hpp"
+
+namespace papilla {
+
+/// What the distortion of a part may be at most: of e = σ1² + σ2² + σ1⁻² + σ2⁻² of its triangles, 4 at an isometry, the
+/// mean by area, or a percentile by area.
+struct DistortionBound {
+  double most = 4.1;                      ///< At least 4.
+  std::optional<double> percentile = {};  ///< In (0, 100]; not given: the mean.
+};
+
+/// What a bound limits: Σ A e / Σ A over all triangles, or the least e that this per cent of the area does not exceed.
+/// The uv count as they are, in the mesh's unit; infinite where a triangle is flipped. O(n log n).
+/// @throws InvalidInput when the uv do not fit the mesh.
+double bounded_distortion(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, const DistortionBound& bound);
+
+/// Charts with their cuts, a map of them, and what it was that mapped them.
+struct ChartedMap {
+  Flattening flattening;
+  std::vector<ChartChoice> choices;
+};
+
+/// What keep_bound() works with.
+struct SeamTools {
+  /// Charts of the whole mesh for a seam cost, with seams along features or only where they are needed, and their map.
+  /// Throws Cancelled when the deadline ends it.
+  std::function<ChartedMap(double seam_cost, bool feature_seams)> chart;
+  std::function<ChartedMap(const ChartSet&)> map;  ///< The map of given charts; notes where one has none.
+  /// Charts with the named ones cut in two.
+  std::function<ChartSet(const ChartSet&, std::span<const std::uint32_t>)> halve;
+  std::vector<double> seam_costs;  ///< Per half-edge 3 t + k: what a seam there counts [mm]; not negative.
+};
+
+/// One map on the way to the result.
+struct SeamSample {
+  double seconds = 0;       ///< Since keep_bound() was entered.
+  double seam_mm = 0;       ///< Length of its seams.
+  double seam_cost_mm = 0;  ///< Σ of SeamTools::seam_costs over them.
+  double distortion = 0;    ///< bounded_distortion().
+};
+
+struct BoundedSeams {
+  ChartedMap charted;
+  bool kept = false;      ///< The bound is kept, up to k_bound_slack.
+  double distortion = 0;  ///< bounded_distortion().
+  double seam_mm = 0, seam_cost_mm = 0;
+  std::vector<SeamSample> trace;  ///< Of all maps that were made, those that were refused too.
+  StopReason stop = StopReason::converged;
+};
+
+/// What a distortion may exceed its bound by: the exactness of maps that are isometries.
+inline constexpr double k_bound_slack = 1e-6;
+
+/// Charts and map of a part with short seams whose distortion keeps a bound: seeks the least
+///     S = Σ c_h over the seams h,   with D <= bound,
+/// c the costs that are given, D bounded_distortion(). It is the problem of [Li et al., OptCuts, 2018].
+///
+/// Method. 1. The seam cost λ of the segmentation is bracketed in factors of four and halved once, with seams along
+/// features and without: of what keeps the bound the cheapest of either go on. 2. Their seams are shortened in rounds.
+/// Closing a slit from its tip over a gap δ of the map raises the energy Σ A (e - 4) by about π δ² / 4 (the energy
+/// release rate of a crack in a sheet of this energy, [Irwin 1957]); joining two charts over a stretch by about 3/2 of
+/// the largest gap squared that a rigid motion leaves. Of all slits and stretches each round takes those lengths that
+/// save most per energy for the energy that is left; the charts are mapped anew, and what came out worse than foreseen
+/// around a place counts as dearer there from then on. A round that breaks the bound is taken back and made with half
+/// of the energy. 3. Stretches between two places where seams meet or end are laid along the cheapest way beside the
+/// old one while the bound allows it; then rounds begin again.
+///
+/// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
+/// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
+/// seams there are: a local search. Cost: 15 to 100 maps, most often 30. Deterministic when the tools are.
+/// @throws InvalidInput for a bound out of range or costs that do not fit the mesh; what the tools throw.
+BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
+                        Deadline deadline = {}, const ProgressCallback& progress = {});
+
+}  // namespace papilla

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/param/bounded_seams.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "papilla/core/error.hpp"
+#include "seam_state.hpp"
+#include "shorten_seams.hpp"
+#include "straighten_seams.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace param_detail;
+
+/// Seam costs are tried in steps of this factor, from a first guess for each unit of distortion on.
+constexpr double k_step = 4, k_first = 0.6;
+constexpr double k_least_cost = 1e-7, k_most_cost = 64;
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+/// Closing and straightening go on while they bring the seams below this part of what they were.
+constexpr double k_worthwhile = 0.98;
+
+/// Costs below the last one that keeps the bound that are tried, too.
+constexpr int k_generous = 1;
+
+/// States whose seams are shortened, of those with and without seams along features.
+constexpr std::size_t k_starts = 3;
+
+/// As often the charts beyond the bound are halved where no seam cost is low enough.
+constexpr int k_halvings = 6;
+
+void check(const DistortionBound& bound) {
+  const auto refuse = [](const std::string& what) { throw InvalidInput("keep_bound: " + what); };
+  if (!(bound.most >= 4 && std::isfinite(bound.most)))
+    refuse("the bound is " + std::to_string(bound.most) + ", it must be at least 4");
+  if (bound.percentile && !(*bound.percentile > 0 && *bound.percentile <= 100))
+    refuse("percentile " + std::to_string(*bound.percentile) + " does not lie in (0, 100]");
+}
+
+class BoundKeeper {
+ public:
+  BoundKeeper(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools, Deadline deadline,
+              const ProgressCallback& progress)
+      : mesh_(mesh, tools.seam_costs), bound_(bound), tools_(tools), deadline_(deadline), progress_(progress) {}
+
+  BoundedSeams run() {
+    for (const bool feature_seams : {true, false}) {
+      feature_seams_ = feature_seams;
+      kept_.clear();
+      search();
+      keep_cheapest();
+    }
+    if (starts_.empty()) halve();
+    SeamState best = starts_.empty() ? std::move(*least_) : shortest();
+    result_.kept = keeps(best);
+    result_.distortion = best.distortion;
+    result_.seam_mm = best.seam_mm;
+    result_.seam_cost_mm = best.cost_mm;
+    if (deadline_.passed()) result_.stop = StopReason::time_limit;
+    result_.charted = std::move(best.charted);
+    return std::move(result_);
+  }
+
+ private:
+  bool keeps(const SeamState& state) const { return state.distortion <= bound_.most + k_bound_slack; }
+
+  void record(const SeamState& state) {
+    result_.trace.push_back({clock_.seconds(), state.seam_mm, state.cost_mm, state.distortion});
+    constexpr double k_usual_maps = 24;
+    report_progress(progress_, "seams", std::min(1.0, static_cast<double>(result_.trace.size()) / k_usual_maps));
+  }
+
+  /// Keeps the state where it is of use. @return whether the bound is kept.
+  bool consider(SeamState state) {
+    record(state);
+    const bool good = keeps(state);
+    if (!least_ || state.distortion < least_->distortion) least_ = state;
+    if (good) kept_.push_back(std::move(state));
+    return good;
+  }
+
+  bool try_cost(double seam_cost) {
+    if (const auto before = tried_.find({seam_cost, feature_seams_}); before != tried_.end()) return before->second;
+    try {
+      SeamState state = measured(mesh_, tools_.chart(seam_cost, feature_seams_), bound_);
+      last_cost_mm_ = state.cost_mm;
+      return tried_[{seam_cost, feature_seams_}] = consider(std::move(state));
+    } catch (const Cancelled&) {  // its time was up
+      if (!least_ || !deadline_.passed()) throw;
+      return false;
+    }
+  }
+
+  /// Brackets the cost at which seams become too few. The costs are the same for all bounds, so that what is found
+  /// for one serves others.
+  void search() {
+    const double guess = std::clamp(k_first * (bound_.most - 4), k_step * k_step * k_least_cost, k_most_cost);
+    double low = std::pow(k_step, std::round(std::log(guess) / std::log(k_step))), high = low;
+    if (try_cost(low)) {
+      for (;;) {
+        const double before = last_cost_mm_;
+        high *= k_step;
+        if (high > k_most_cost || deadline_.passed() || !try_cost(high)) break;
+        if (!(last_cost_mm_ < before)) break;  // there are no fewer seams
+        low = high;
+      }
+    } else {
+      do {
+        if (low / k_step < k_least_cost || deadline_.passed()) return;
+        high = low;
+        low /= k_step;
+      } while (!try_cost(low));
+    }
+    if (!deadline_.passed()) try_cost(std::sqrt(low * high));
+    // Of too many seams, others can be closed than are missing where there are fewer.
+    for (int i = 0; i < k_generous && low / k_step >= k_least_cost && !deadline_.passed(); ++i) try_cost(low /= k_step);
+  }
+
+  SeamState map(const ChartSet& charts) {
+    ChartedMap charted = tools_.map(charts);
+    std::vector<std::uint8_t> without_map;
+    if (!charted.flattening.notes.empty()) {
+      std::vector<std::uint8_t> fails(charts.count, 0);
+      for (const ChartNote& note : charted.flattening.notes) fails[note.chart] = 1;
+      for (const std::uint32_t c : charts.of_triangle) without_map.push_back(fails[c]);
+    }
+    SeamState state = measured(mesh_, std::move(charted), bound_);
+    state.without_map = std::move(without_map);
+    return state;
+  }
+
+  /// Cuts the charts that are beyond the bound.
+  void halve() {
+    SeamState state = *least_;
+    for (int i = 0; i < k_halvings && !deadline_.passed(); ++i) {
+      const ChartSet& charts = state.charted.flattening.charts;
+      std::vector<double> area(charts.count, 0), excess(charts.count, 0);
+      for (std::size_t t = 0; t < charts.of_triangle.size(); ++t) {
+        area[charts.of_triangle[t]] += mesh_.rest[t].area;
+        excess[charts.of_triangle[t]] += state.excess[t];
+      }
+      std::vector<std::uint32_t> worst;
+      for (std::uint32_t c = 0; c < charts.count; ++c)
+        if (!(excess[c] <= (bound_.most - 4 + k_bound_slack) * area[c])) worst.push_back(c);
+      if (worst.empty()) return;
+      state = map(tools_.halve(charts, worst));
+      if (consider(state)) return keep_cheapest();
+    }
+  }
+
+  /// Of the states that keep the bound.
+  void keep_cheapest() {
+    std::stable_sort(kept_.begin(), kept_.end(),
+                     [](const SeamState& a, const SeamState& b) { return a.cost_mm < b.cost_mm; });
+    for (std::size_t i = 0, taken = 0; i < kept_.size() && taken < k_starts; ++i) {
+      const auto same = [&](const SeamState& start) { return start.seam == kept_[i].seam; };
+      if (std::any_of(starts_.begin(), starts_.end(), same)) continue;
+      starts_.push_back(std::move(kept_[i]));
+      ++taken;
+    }
+    kept_.clear();
+  }
+
+  /// The starts with their seams shortened: the cheapest that comes of them.
+  SeamState shortest() {
+    const MapCharts map_charts = [this](const ChartSet& charts) {
+      SeamState state = map(charts);
+      record(state);
+      return state;
+    };
+    std::optional<SeamState> best;
+    for (SeamState& start : starts_) {
+      SeamState state = std::move(start);
+      for (double before = k_infinity; state.cost_mm < k_worthwhile * before;) {
+        before = state.cost_mm;
+        state = shorten_seams(mesh_, std::move(state), bound_, map_charts, deadline_);
+        state = straighten_seams(mesh_, std::move(state), bound_, map_charts, deadline_);
+      }
+      if (!best || state.cost_mm < best->cost_mm) best = std::move(state);
+    }
+    return std::move(*best);
+  }
+
+  SeamMesh mesh_;
+  const DistortionBound& bound_;
+  const SeamTools& tools_;
+  Deadline deadline_;
+  const ProgressCallback& progress_;
+  Stopwatch clock_;
+  bool feature_seams_ = true;
+  std::vector<SeamState> kept_, starts_;
+  std::optional<SeamState> least_;  ///< Of the least distortion.
+  double last_cost_mm_ = 0;
+  std::map<std::pair<double, bool>, bool> tried_;  ///< Seam costs, with features and without: do they keep the bound?
+  BoundedSeams result_;
+};
+
+}  // namespace
+
+BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
+                        Deadline deadline, const ProgressCallback& progress) {
+  check(bound);
+  return BoundKeeper(mesh, bound, tools, deadline, progress).run();
+}
+
+}  // namespace papilla

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "seam_state.hpp"
+
+namespace papilla::param_detail {
+
+/// A stretch of seam between two places where seams meet, end, or reach the border of the mesh.
+struct SeamPath {
+  std::vector<Index> halfedges;                   ///< In order, of the triangles on the left; at least one.
+  bool tip_at_start = false, tip_at_end = false;  ///< The seam ends there within a chart.
+};
+
+/// All stretches of seam: every seam edge that is no border of the mesh lies on exactly one. Deterministic. O(n).
+std::vector<SeamPath> seam_paths(const SeamMesh& mesh, const SeamState& state);
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Target C: the method of least distortion against SLIM and LSCM, and on two threads.
+#include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/param_targets.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/meshing/cut_open.hpp"
+#include "papilla/meshing/segmentation.hpp"
+#include "papilla/param/best.hpp"
+#include "support/solid_meshes.hpp"
+
+namespace papilla::bench {
+namespace {
+
+using Threads = oneapi::tbb::global_control;
+
+/// Least wall time of three [s].
+double wall_of(const std::function<void()>& work) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Stopwatch clock;
+    work();
+    least = std::min(least, clock.seconds());
+  }
+  return least;
+}
+
+void report_two_threads(const std::string& what, const std::function<void()>& work, BenchReport& report) {
+  constexpr double k_least = 1.6;
+  const std::string promise = fmt::format("C: {}: two threads at least {} times as fast as one", what, k_least);
+  if (Threads::active_value(Threads::max_allowed_parallelism) < 2 || oneapi::tbb::info::default_concurrency() < 2)
+    return report.target({promise, "one thread only", {}});
+  const double one = [&] {
+    const Threads limit(Threads::max_allowed_parallelism, 1);
+    return wall_of(work);
+  }();
+  const Threads limit(Threads::max_allowed_parallelism, 2);
+  const double two = wall_of(work);
+  report.target({promise, fmt::format("{:.2f} times", one / two), one / two >= k_least});
+}
+
+}  // namespace
+
+void report_best(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report) {
+  report.target(
+      {"C: symmetric Dirichlet on dash 1M at most 4.0080",
+       fmt::format("{:.5f}, {}", of.energy("best", "dash 1M"), of.valid("best", "dash 1M") ? "valid" : "NOT VALID"),
+       of.energy("best", "dash 1M") <= 4.0080 && of.valid("best", "dash 1M")});
+  {
+    const Threads limit(Threads::max_allowed_parallelism, 1);
+    cpu_target("C: best on dash 1M: at most 0.10 of the CPU of libigl's LSCM, one thread", mesh_of(all, "dash 1M"),
+               best, peers.find("lscm", "dash 1M", mesh_of(all, "dash 1M")), 0.10, 1, report);
+    const std::pair<const char*, int> slim[] = {{"dash 10k", 25}, {"dash 100k", 40}};
+    for (const auto& [name, share] : slim) {
+      const Peer* peer = peers.find("slim20", name, mesh_of(all, name));
+      cpu_target(fmt::format("C: best on {}: at most 1/{} of the CPU of 20 SLIM iterations, one thread", name, share),
+                 mesh_of(all, name), best, peer, 1, 1.0 / share, report);
+      if (!peer) continue;
+      const double energy = of.energy("best", name), theirs = peer->report.symmetric_dirichlet.mean;
+      report.target({fmt::format("C: its symmetric Dirichlet energy on {} at most SLIM's", name),
+                     fmt::format("{:.5f} against {:.5f}", energy, theirs), energy <= theirs});
+    }
+  }
+  const TriangleMesh& dash = mesh_of(all, "dash 100k");
+  report_two_threads(
+      "best on dash 100k", [&] { best(dash); }, report);
+  const TriangleMesh torus = test::torus_mesh(500, 200);
+  SegmentationOptions generous;
+  generous.seam_cost = 0.01;
+  const ChartSet charts = segment_charts(torus, generous).charts;
+  const TriangleMesh open = cut_open(torus, charts);
+  report_two_threads(
+      fmt::format("best on the {} charts of a torus of 200k", charts.count), [&] { flatten_best(open, charts); },
+      report);
+}
+
+}  // namespace papilla::bench

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "papilla/core/error.hpp"
+#include "papilla/meshing/cut_open.hpp"
+#include "papilla/param/bounded_seams.hpp"
+#include "papilla/param/measure.hpp"
+#include "papilla/pipeline/unwrap_method.hpp"
+#include "papilla_test/shapes.hpp"
+
+namespace papilla {
+namespace {
+
+MethodOptions bounded(const std::string& bound, UnwrapMethod method = UnwrapMethod::best) {
+  MethodOptions options;
+  options.method = method;
+  options.max_distortion = distortion_bound(bound);
+  EXPECT_TRUE(options.max_distortion) << bound;
+  return options;
+}
+
+/// Turned about all axes, and scaled.
+TriangleMesh placed(TriangleMesh mesh, double scale = 1) {
+  const double a = 0.7, b = -1.1, c = 0.4;
+  for (Vec3& p : mesh.positions) {
+    Vec3 q{p.x, std::cos(a) * p.y - std::sin(a) * p.z, std::sin(a) * p.y + std::cos(a) * p.z};
+    q = {std::cos(b) * q.x + std::sin(b) * q.z, q.y, -std::sin(b) * q.x + std::cos(b) * q.z};
+    p = scale * Vec3{std::cos(c) * q.x - std::sin(c) * q.y, std::sin(c) * q.x + std::cos(c) * q.y, q.z};
+  }
+  return mesh;
+}
+
+/// An oblong body without symmetries: no map of it is near an isometry.
+TriangleMesh pebble(Index rings, Index segments) {
+  TriangleMesh mesh = test::uv_sphere(1, rings, segments);
+  for (Vec3& p : mesh.positions) {
+    const double r = 10 + 1.5 * std::sin(3 * p.x + 2 * p.y) + std::cos(4 * p.z - p.x);
+    p = {2.2 * r * p.x, r * p.y, 0.7 * r * p.z};
+  }
+  return mesh;
+}
+
+FlattenedPart unwrapped(const TriangleMesh& mesh, const MethodOptions& options) {
+  FlattenedPart part = flatten_part(mesh, {}, options);
+  EXPECT_TRUE(part.bound);
+  const DistortionReport report = measure_distortion(mesh, part.flattening.uv, {.normalize = UvNormalization::none});
+  EXPECT_EQ(report.without_uv + report.flipped + report.degenerate_uv + report.overlapping_within_charts, 0u);
+  EXPECT_NEAR(report.seam_length_mm, part.bound->seam_mm, 1e-9 * (1 + part.bound->seam_mm));
+  EXPECT_NEAR(bounded_distortion(mesh, part.flattening.uv, *options.max_distortion), part.bound->distortion, 1e-9);
+  if (!options.max_distortion->percentile) {
+    EXPECT_NEAR(report.symmetric_dirichlet.mean, part.bound->distortion, 1e-6);
+  }
+  EXPECT_EQ(part.bound->kept, part.bound->distortion <= options.max_distortion->most + k_bound_slack);
+  return part;
+}
+
+TEST(MaxDistortion, TextsOfBounds) {
+  EXPECT_EQ(distortion_bound("4.1")->most, 4.1);
+  EXPECT_FALSE(distortion_bound("4")->percentile);
+  EXPECT_EQ(distortion_bound("p95=4.25")->most, 4.25);
+  EXPECT_EQ(*distortion_bound("p99.5=5")->percentile, 99.5);
+  for (const char* bad : {"", "3.9", "nan", "inf", "4.1mm", "p=4.1", "p95", "95=4.1", "p0=4.1", "p101=5", "p95=3"})
+    EXPECT_FALSE(distortion_bound(bad)) << bad;
+  for (const char* name : {"4.1", "p95=4.25"}) EXPECT_EQ(distortion_bound_name(*distortion_bound(name)), name);
+}
+
+TEST(MaxDistortion, ATubeIsCutAlongItOnce) {
+  for (const UnwrapMethod method : {UnwrapMethod::best, UnwrapMethod::automatic}) {
+    const FlattenedPart part = unwrapped(placed(test::cylinder(30, 80, 24, 6)), bounded("4.0001", method));
+    EXPECT_TRUE(part.bound->kept);
+    EXPECT_EQ(part.flattening.charts.count, 1u);
+    EXPECT_NEAR(part.bound->seam_mm, 80, 1e-6);
+  }
+}
+
+TEST(MaxDistortion, AConeIsCutFromItsTip) {
+  const FlattenedPart part = unwrapped(placed(test::cone(30, 80, 25)), bounded("4.0001"));
+  EXPECT_TRUE(part.bound->kept);
+  EXPECT_EQ(part.flattening.charts.count, 1u);
+  EXPECT_NEAR(part.bound->seam_mm, std::hypot(30, 80), 1e-6);
+}
+
+/// For a cap of half angle θ, the energy of the best map tends to 4 + θ⁴ / 48: its area strain w solves Δw = -K and is
+/// perpendicular to all harmonic functions, w = K (r² - R² / 2) / 4.
+TEST(MaxDistortion, ASmallCapNeedsNoSeam) {
+  const double angle = 0.8, least = 4 + std::pow(angle, 4) / 48;
+  const TriangleMesh cap = placed(test::spherical_cap(50, angle, 24, 72));
+  const FlattenedPart whole = unwrapped(cap, bounded(std::to_string(least + 2e-3)));
+  EXPECT_TRUE(whole.bound->kept);
+  EXPECT_EQ(whole.bound->seam_mm, 0);
+  EXPECT_NEAR(whole.bound->distortion - 4, least - 4, 0.12 * (least - 4));
+  const FlattenedPart cut = unwrapped(cap, bounded(std::to_string(4 + 0.5 * (least - 4))));
+  EXPECT_TRUE(cut.bound->kept);
+  EXPECT_GT(cut.bound->seam_mm, 0);
+}
+
+/// Costs of the seams for bounds that get tighter.
+std::vector<double> costs_of(const TriangleMesh& mesh) {
+  std::vector<double> costs;
+  for (const char* bound : {"4.8", "4.2", "4.05", "4.01"}) {
+    const FlattenedPart part = unwrapped(mesh, bounded(bound));
+    EXPECT_TRUE(part.bound->kept) << bound;
+    costs.push_back(part.bound->seam_cost_mm);
+  }
+  EXPECT_GT(costs.back(), 1.5 * costs.front());
+  return costs;
+}
+
+TEST(MaxDistortion, TighterBoundsGiveNoShorterSeams) {
+  const std::vector<double> cap = costs_of(placed(test::spherical_cap(50, 1.5, 20, 60)));
+  EXPECT_TRUE(std::is_sorted(cap.begin(), cap.end()));
+  // A local search: where seams have many places to go, a few per cent are left to chance.
+  const std::vector<double> costs = costs_of(pebble(24, 40));
+  for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_GE(costs[i], 0.95 * costs[i - 1]) << i;
+}
+
+TEST(MaxDistortion, SeamsAreShortForWhatTheyAre) {
+  // Of a hemisphere, one straight slit to the top leaves a mean of about 4.09.
+  const FlattenedPart part = unwrapped(placed(test::spherical_cap(50, 1.5708, 20, 60)), bounded("4.1"));
+  EXPECT_TRUE(part.bound->kept);
+  EXPECT_LT(part.bound->seam_mm, 1.3 * 1.5708 * 50);
+}
+
+TEST(MaxDistortion, APercentileIsKept) {
+  const TriangleMesh mesh = pebble(24, 40);
+  const FlattenedPart part = unwrapped(mesh, bounded("p90=4.1"));
+  EXPECT_TRUE(part.bound->kept);
+  const DistortionReport report = measure_distortion(mesh, part.flattening.uv, {.normalize = UvNormalization::none});
+  EXPECT_LE(report.symmetric_dirichlet_percentiles.p90, 4.1 + 1e-5);
+  EXPECT_LT(part.bound->seam_cost_mm, unwrapped(mesh, bounded("p99=4.1")).bound->seam_cost_mm);
+}
+
+TEST(MaxDistortion, WhatCantBeKeptIsSaid) {
+  const FlattenedPart part = unwrapped(test::uv_sphere(20, 40, 60), bounded("4"));
+  EXPECT_FALSE(part.bound->kept);
+  EXPECT_GT(part.bound->distortion, 4 + k_bound_slack);
+}
+
+TEST(MaxDistortion, ScaleAndPlaceDoNotMatter) {
+  const FlattenedPart one = unwrapped(pebble(20, 36), bounded("4.1"));
+  const FlattenedPart large = unwrapped(placed(pebble(20, 36), 512), bounded("4.1"));
+  EXPECT_TRUE(one.bound->kept && large.bound->kept);
+  EXPECT_NEAR(large.bound->seam_mm / 512, one.bound->seam_mm, 0.15 * one.bound->seam_mm);
+}
+
+/// The half-edges along which charts end.
+std::vector<Index> seams_of(const TriangleMesh& mesh, const Flattening& flattening) {
+  std::vector<Index> seams;
+  const CornerAttribute<Vec2>& uv = flattening.uv;
+  for (Index t = 0; t < mesh.triangles.size(); ++t)
+    for (Index o = 0; o < t; ++o)
+      for (Index k = 0; k < 3; ++k)
+        for (Index m = 0; m < 3; ++m)
+          if (mesh.triangles[t][k] == mesh.triangles[o][(m + 1) % 3] &&
+              mesh.triangles[t][(k + 1) % 3] == mesh.triangles[o][m] &&
+              (uv.indices[t][k] != uv.indices[o][(m + 1) % 3] || uv.indices[t][(k + 1) % 3] != uv.indices[o][m]))
+            seams.push_back(3 * t + k);
+  return seams;
+}
+
+TEST(MaxDistortion, SeamsGoWhereTheEyeDoesNot) {
+  const TriangleMesh mesh = test::cylinder(30, 80, 24, 6);
+  for (const double side : {-1.0, 1.0}) {
+    MethodOptions options = bounded("4.0001");
+    options.segmentation.eye = Vec3{side * 900, 20, 40};
+    const FlattenedPart part = unwrapped(mesh, options);
+    const std::vector<Index> seams = seams_of(mesh, part.flattening);
+    ASSERT_FALSE(seams.empty());
+    for (const Index h : seams) EXPECT_LT(side * mesh.positions[mesh.triangles[h / 3][h % 3]].x, 5);
+    EXPECT_NEAR(part.bound->seam_cost_mm, 0.2 * 80, 8);
+  }
+}
+
+TEST(MaxDistortion, ItsTraceEndsWithTheResult) {
+  const FlattenedPart part = unwrapped(pebble(20, 36), bounded("4.1"));
+  ASSERT_GE(part.bound->trace.size(), 3u);
+  double seconds = 0;
+  bool found = false;
+  for (const SeamSample& sample : part.bound->trace) {
+    EXPECT_GE(sample.seconds, seconds);
+    seconds = sample.seconds;
+    EXPECT_TRUE(sample.distortion > 4.1 + k_bound_slack || sample.seam_cost_mm >= part.bound->seam_cost_mm);
+    found = found || (sample.seam_mm == part.bound->seam_mm && sample.distortion == part.bound->distortion);
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(MaxDistortion, IsRefusedWhereChartsAreGiven) {
+  const TriangleMesh mesh = test::plane(30, 20, 3, 2);
+  EXPECT_THROW(flatten_part(mesh, {}, bounded("4.1", UnwrapMethod::lscm)), InvalidInput);
+  MethodOptions keep = bounded("4.1");
+  keep.charts = ChartSource::keep;
+  EXPECT_THROW(flatten_part(mesh, {}, keep), InvalidInput);
+  MethodOptions low = bounded("4.1");
+  low.max_distortion->most = 3.9;
+  EXPECT_THROW(flatten_part(mesh, {}, low), InvalidInput);
+}
+
+}  // namespace
+}  // namespace papilla
