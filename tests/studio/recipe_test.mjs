@@ -66,7 +66,19 @@ try {
   for (let i = 0; i < '\n|octves=3'.length; ++i) await page.keyboard.press('Backspace');
   await page.waitForFunction(() => document.getElementById('recipe-problem').hidden);
 
-  // ---- Completion.
+  // ---- Completion: Enter takes what fits the word as it is, though the list shown is of a shorter one.
+  await page.keyboard.type('|mor');
+  await page.waitForSelector('#recipe-completions [role=option][aria-selected=true]');
+  let answer;
+  const asked = new Promise((go) => { answer = go; });
+  await page.route('**/recipe-completions?*', async (route) => { await asked; await route.continue(); });
+  await page.keyboard.type('tarthickn');
+  await page.keyboard.press('Enter');
+  assert.equal(await written(), `${RECIPE}|mortarthickn`);
+  answer();
+  await textIs(`${RECIPE}|mortarthickness=`);
+  await page.unroute('**/recipe-completions?*');
+  for (let i = 0; i < '|mortarthickness='.length; ++i) await page.keyboard.press('Backspace');
   await page.keyboard.type('|mortarthickn');
   await page.waitForSelector('#recipe-completions [role=option][aria-selected=true]');
   assert.equal(await text(page, '#recipe-completions [aria-selected=true] b'), 'mortarthickness');

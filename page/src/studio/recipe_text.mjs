@@ -16,7 +16,7 @@ export class RecipeText {
     this.list = element('div', { id: 'recipe-completions', role: 'listbox', 'aria-label': T.recipe.completions, hidden: '' });
     this.said = element('button', { id: 'recipe-problem', type: 'button', hidden: '' });
     host.append(element('div', { class: 'recipe-text' }, this.lines, this.area), this.list, this.said);
-    this.area.addEventListener('input', () => { this.draw(); this.onInput(); this.complete(); });
+    this.area.addEventListener('input', () => { this.draw(); this.onInput(); this.asking = this.complete(); });
     this.area.addEventListener('keydown', (e) => this.key(e));
     this.area.addEventListener('blur', () => this.close());
     this.said.addEventListener('click', () => { this.area.focus(); this.area.setSelectionRange(this.problem.position, this.problem.position); });
@@ -67,7 +67,7 @@ export class RecipeText {
     const found = await post('recipe-completions', { text, cursor }).catch(() => null);
     if (number !== this.asked || text !== this.value) return undefined;  // A newer one is under way.
     if (!found?.all.length) return this.close();
-    this.found = found;
+    Object.assign(this, { found, shownFor: text });
     this.list.replaceChildren(...found.all.slice(0, SHOWN_AT_ONCE).map((c, i) => {
       const item = element('div', { role: 'option', id: `recipe-completion-${i}`, 'aria-selected': 'false', class: 'completion' }, element('b', {}, c.name), element('span', {}, c.note || T.recipe.kinds[c.kind]));
       item.addEventListener('pointerdown', (e) => { e.preventDefault(); this.accept(i); });
@@ -91,21 +91,39 @@ export class RecipeText {
     return this.area.setAttribute('aria-activedescendant', `recipe-completion-${index}`);
   }
 
+  /** The word at the cursor, which may have grown since the list was asked for. */
+  get word() {
+    const text = this.value;
+    let begin = this.area.selectionStart, end = begin;
+    while (begin > 0 && IN_NAME.test(text[begin - 1])) --begin;
+    while (end < text.length && IN_NAME.test(text[end])) ++end;
+    return [begin, end];
+  }
+
   accept(index) {
-    const { word, all } = this.found, { insert } = all[index];
+    const { word } = this, { insert } = this.found.all[index];
     this.value = spliced(this.value, word, insert);
     this.area.focus();
     this.area.setSelectionRange(word[0] + insert.length, word[0] + insert.length);
     this.onInput();
-    if (insert.endsWith('=')) this.complete();
+    if (insert.endsWith('=')) this.asking = this.complete();
+  }
+
+  /** Enter or Tab: a list of a shorter word is not what was meant; the one under way is. */
+  async acceptNewest(key) {
+    while (this.shownFor !== this.value && !this.list.hidden) await this.asking;
+    if (!this.list.hidden && this.active >= 0) { this.accept(this.active); return; }
+    if (key !== 'Enter') return;
+    this.area.setRangeText('\n', this.area.selectionStart, this.area.selectionEnd, 'end');
+    this.area.dispatchEvent(new Event('input'));
   }
 
   key(event) {
-    if (event.key === ' ' && (event.ctrlKey || event.metaKey)) { event.preventDefault(); this.complete(true); return; }
+    if (event.key === ' ' && (event.ctrlKey || event.metaKey)) { event.preventDefault(); this.asking = this.complete(true); return; }
     if (this.list.hidden) return;
     const count = this.list.children.length, step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (step) this.activate((this.active + step + count) % count);
-    else if ((event.key === 'Enter' || event.key === 'Tab') && this.active >= 0) this.accept(this.active);
+    else if ((event.key === 'Enter' || event.key === 'Tab') && this.active >= 0) this.acceptNewest(event.key);
     else if (event.key === 'Escape') this.close();
     else return;
     event.preventDefault();
