@@ -10,7 +10,7 @@ const LOOK_MS = 4;
 export class Pace {
   /** @param onChange called with whether the picture is coarse now; it is to be drawn again */
   constructor(renderer, onChange) {
-    Object.assign(this, { renderer, onChange, ratio: Math.min(window.devicePixelRatio, 2), pictures: 0, fullMs: 0, isCoarse: false });
+    Object.assign(this, { renderer, onChange, ratio: Math.min(window.devicePixelRatio, 2), pictures: 0, fullMs: 0, isCoarse: false, isHeld: false });
     renderer.setPixelRatio(this.ratio);
   }
 
@@ -18,7 +18,15 @@ export class Pace {
   changing() {
     if (this.fullMs > SLOW_MS) this.setCoarse(true);
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.setCoarse(false), Math.min(Math.max(REST_MS, this.fullMs / 2), LONGEST_REST_MS));
+    if (!this.isHeld) this.resting = setTimeout(() => this.setCoarse(false), Math.min(Math.max(REST_MS, this.fullMs / 2), LONGEST_REST_MS));
+  }
+
+  /** While changes are under way, as whoever makes them needs the processors that a full picture would take. */
+  hold(isHeld) {
+    if (this.isHeld === isHeld) return;
+    this.isHeld = isHeld;
+    if (isHeld) clearTimeout(this.resting);
+    else if (this.isCoarse) this.changing();
   }
 
   setCoarse(isCoarse) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How long a material takes from its drop on a surface until it is drawn: node drops.mjs PAPILLA SCENE SURFACE OUT.json
-// Every material is new to the server, which keeps no cache.
+// Every material is new to the server, whose cache is empty at the start.
 import { copyFileSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
@@ -12,7 +12,7 @@ const MATERIALS = 6;
 const [papilla, scene, surface, out] = process.argv.slice(2);
 const browser = await launch(), folder = mkdtempSync(join(tmpdir(), 'papilla-drops-'));
 copyFileSync(scene, join(folder, basename(scene)));
-const studio = await start(papilla, [basename(scene), '-m', 'm.json', '--cache', 'none'], { cwd: folder });
+const studio = await start(papilla, [basename(scene), '-m', 'm.json', '--cache', join(folder, 'cache')], { cwd: folder });
 try {
   const { page } = await openUrl(browser, studio.url, { viewport: { width: 1280, height: 860 } });
   await allShown(page);
@@ -26,6 +26,7 @@ try {
     const wanted = s.library.filter(({ name }) => name.startsWith('leather/')).slice(0, most);
     const frame = () => new Promise((done) => requestAnimationFrame(done));
     for (const { name } of wanted) {
+      while (s.view.pace.isCoarse || s.view.pace.fence || s.view.levels.missing > 0) await frame();  // At rest again.
       const of = () => s.state.surfaces.find((x) => x.label === label), key = s.keyOf(of()), begin = performance.now();
       await s.apply({ library: name }, [key]);
       const answered = performance.now();
@@ -33,7 +34,7 @@ try {
       const ready = performance.now();
       while (s.shown.get(key)?.name !== of().name) await frame();
       const taken = performance.now(), frames = Number(s.view.canvas.dataset.frames);
-      s.view.draw();
+      s.view.changing();
       while (Number(s.view.canvas.dataset.frames) === frames) await frame();
       await frame();
       found.push({ name, drawn_ms: performance.now() - begin, answered_ms: answered - begin, ready_ms: ready - begin, taken_ms: taken - begin, server_ms: 1000 * s.shown.get(key).data.seconds });

@@ -20,6 +20,7 @@ export class DecalHandle {
 
   /** @param decal of the document, or null */
   show(decal) {
+    if (!decal && !this.decal) return;
     this.decal = decal;
     if (decal) {
       const { corners, mark } = frameOf(decal), ends = corners.flatMap((corner, i) => [corner, corners[(i + 1) % 4]]);

@@ -29,7 +29,7 @@ const sphere = new THREE.Sphere();
 
 export class Levels {
   /** @param surfaces of a View @param onCome called when a picture would be another @param onProblem gets an Error */
-  constructor(surfaces, onCome, onProblem) { Object.assign(this, { surfaces, onCome, onProblem, wanted: [], asked: null, isHeld: false, drawnAt: 0 }); }
+  constructor(surfaces, onCome, onProblem) { Object.assign(this, { surfaces, onCome, onProblem, wanted: [], asked: null, isHeld: false, isAtRest: true, drawnAt: 0 }); }
 
   /** What lies on a surface needs the whole of it: set by who lays something there. @param shown a surface @param use */
   isCovered() { return false; }
@@ -40,6 +40,12 @@ export class Levels {
   /** While the server has surfaces to make it is asked for no levels. */
   hold(isHeld) {
     this.isHeld = isHeld;
+    this.ask();
+  }
+
+  /** Nor while pictures are coarse: the server would take processors from them. */
+  rest(isAtRest) {
+    this.isAtRest = isAtRest;
     this.ask();
   }
 
@@ -72,7 +78,7 @@ export class Levels {
 
   /** The next request, for the most triangles first. */
   async ask() {
-    if (this.asked || this.isHeld) return;
+    if (this.asked || this.isHeld || !this.isAtRest) return;
     this.wanted = this.wanted.filter((shown) => this.surfaces.get(shown.key) === shown).sort((a, b) => a.geometry.index.count - b.geometry.index.count);
     const shown = this.asked = this.wanted.pop();
     if (!shown) return;

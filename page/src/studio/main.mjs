@@ -90,6 +90,7 @@ class Studio {
     this.socket.on('working', ({ left, label }) => {
       this.materials.pictures.hold(left > 0);
       this.view.levels.hold(left > 0);
+      this.view.pace.hold(left > 0);
       this.say(left ? T.working(left, label) : T.ready);
     });
     this.socket.on('failed', ({ label, problem }) => this.say(T.failed(label, problem), true));

@@ -19,7 +19,7 @@ export class View extends MovingCamera {
     super(canvas);
     Object.assign(this, { onPick, surfaces: new Map(), coming: new Map(), uses: [], overlay: 'textured', map: 'viridis', seams: false, selected: new Set(), hidden: new Set(), marks: [] });
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware() });
-    this.pace = new Pace(this.renderer, () => this.resize());
+    this.pace = new Pace(this.renderer, (isCoarse) => { this.levels.rest(!isCoarse); this.resize(); });
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.world = new THREE.Scene();
     this.root = new THREE.Group();  // Turns the file's axes to Y up.
@@ -93,7 +93,7 @@ export class View extends MovingCamera {
   /** Other surfaces are there than before. */
   changed() {
     this.onSurfaces?.();
-    this.draw();
+    this.changing();
   }
 
   /** Takes away the surfaces that are not of these keys. */
@@ -219,6 +219,7 @@ export class View extends MovingCamera {
   draw() {
     if (this.waiting || this.renderer.xr.isPresenting) return;
     this.waiting = true;
+    if (this.pace.isHeld) this.pace.changing();
     requestAnimationFrame(() => {
       this.waiting = false;
       if (!this.renderer.xr.isPresenting) this.pace.draw(() => this.paint());
