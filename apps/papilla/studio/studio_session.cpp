@@ -30,6 +30,7 @@
 #include "papilla/pipeline/studio/parse_materials.hpp"
 #include "papilla/pipeline/studio/studio_document.hpp"
 #include "studio/studio_answers.hpp"
+#include "studio/studio_atlases.hpp"
 #include "studio/studio_bake.hpp"
 #include "studio/studio_card.hpp"
 #include "studio/studio_carriers.hpp"
@@ -79,6 +80,10 @@ class StudioSession::Studio {
         }});
     decals_ = std::make_unique<StudioDecals>(*worker_);
     carriers_ = std::make_unique<StudioCarrierMaker>(*worker_);
+    atlases_ = std::make_unique<StudioAtlases>([this] { tell({{"event", "recipe-atlas"}}); });
+    recipe_ = std::make_unique<StudioRecipe>(
+        StudioRecipe::Handlers{bake_options_.library, [this] { return review_file().parent_path(); },
+                               [this](const std::string& material) { return rule_of_document(material); }, *atlases_});
     feel_ = std::make_unique<StudioFeel>(StudioFeel::Handlers{[this] { return made_surfaces(); },
                                                               [this] { return scene_file(); },
                                                               [this](const Json& event) { tell(event); }});
@@ -109,6 +114,7 @@ class StudioSession::Studio {
     keeper_.join();
     bake_.reset();
     feel_.reset();
+    atlases_.reset();
     carriers_.reset();
     decals_.reset();
     worker_.reset();
@@ -192,7 +198,10 @@ class StudioSession::Studio {
   void show(std::shared_ptr<const StudioPlan> plan) {
     plan_ = std::move(plan);
     ++version_;
-    if (scene_) worker_->want(scene_, plan_), decals_->want(scene_, plan_), carriers_->want(scene_, plan_);
+    if (scene_) {
+      worker_->want(scene_, plan_), decals_->want(scene_, plan_), carriers_->want(scene_, plan_);
+      atlases_->want(scene_, plan_);
+    }
     changed_.notify_all();
     tell({{"event", "state"}, {"version", version_}});
   }
@@ -590,7 +599,8 @@ class StudioSession::Studio {
     StudioRoutes routes;
     add_decal_routes(routes, *decals_);
     add_carrier_routes(routes, *carriers_);
-    add_recipe_routes(routes, recipe_);
+    add_recipe_routes(routes, *recipe_);
+    add_atlas_routes(routes, *atlases_);
     add_review_routes(routes, review_, [this] { tell({{"event", "review"}}); });
     routes.get["/card"] = [this](const Query& query) { return card(query); };
     routes.get["/"] = [this](const Query&) { return page(); };
@@ -667,8 +677,8 @@ class StudioSession::Studio {
   std::unique_ptr<StudioDecals> decals_;
   std::unique_ptr<StudioCarrierMaker> carriers_;
   std::unique_ptr<StudioFeel> feel_;
-  StudioRecipe recipe_{{bake_options_.library, [this] { return review_file().parent_path(); },
-                        [this](const std::string& material) { return rule_of_document(material); }}};
+  std::unique_ptr<StudioAtlases> atlases_;
+  std::unique_ptr<StudioRecipe> recipe_;
   StudioReview review_{[this] { return review_file(); }, [this] { return scene_file(); }};
 };
 

@@ -66,17 +66,22 @@ class Arrays {
   Json json = Json::object();
 };
 
-/// @param arrays get those of the surface.
-Json surface_json(const StudioSurface& surface, Arrays& arrays) {
-  const ShownMesh& mesh = surface.mesh;
+/// Pages have v down the rows of pictures.
+void add_vertices(const ShownMesh& mesh, Arrays& arrays) {
   std::vector<float> uv = mesh.uv;
   for (std::size_t i = 1; i < uv.size(); i += 2) uv[i] = 1 - uv[i];
   arrays.add("positions", mesh.positions);
   arrays.add("normals", mesh.normals);
   arrays.add("uv", uv);
+  arrays.add("indices", mesh.indices);
+}
+
+/// @param arrays get those of the surface.
+Json surface_json(const StudioSurface& surface, Arrays& arrays) {
+  const ShownMesh& mesh = surface.mesh;
+  add_vertices(mesh, arrays);
   arrays.add("measured", mesh.measured);
   arrays.add("seams", mesh.seams);
-  arrays.add("indices", mesh.indices);
   Json json = {{"part", surface.part},
                {"slot", surface.slot},
                {"label", surface.label},
@@ -101,6 +106,12 @@ SharedText surface_bytes(const StudioSurface& surface) {
   Arrays arrays;
   const Json json = surface_json(surface, arrays);
   return framed(json, arrays.bytes);
+}
+
+SharedText mesh_bytes(const ShownMesh& mesh) {
+  Arrays arrays;
+  add_vertices(mesh, arrays);
+  return framed({{"arrays", arrays.take()}}, arrays.bytes);
 }
 
 SharedText level_bytes(const std::vector<ShownLevel>& levels) {

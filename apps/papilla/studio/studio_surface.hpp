@@ -20,6 +20,9 @@ std::string short_name(const std::string& text);
 /// normals, uv with v downwards, measured, seams as 32-bit floats, indices as 32-bit integers.
 SharedText surface_bytes(const StudioSurface& surface);
 
+/// Positions, normals, uv and indices likewise: {"arrays"}.
+SharedText mesh_bytes(const ShownMesh& mesh);
+
 /// Coarser levels of a surface: framed(), the text {"levels": [{"coverage", "at", "count"}, …]}, finest first, of their
 /// indices as 32-bit integers.
 SharedText level_bytes(const std::vector<ShownLevel>& levels);

@@ -92,6 +92,7 @@ class Studio {
       this.view.levels.hold(left > 0);
       this.say(left ? T.working(left, label) : T.ready);
     });
+    this.socket.on('recipe-atlas', () => this.recipe.atlasCame());
     this.socket.on('failed', ({ label, problem }) => this.say(T.failed(label, problem), true));
     this.socket.on('problem', ({ text }) => this.say(text, true));
     this.socket.on('loading', (event) => this.progress(T.loading(event.file, event.stage, Math.round(100 * event.fraction)), event.fraction));

@@ -11,8 +11,8 @@ function measuredColumns(pairs) {
   return columns;
 }
 
-/** @param arrays of parseSurface() */
-export function geometryOf({ positions, normals, uv, measured, indices }) {
+/** @param arrays of parseSurface(); without `measured` nothing of the uv's quality can be shown */
+export function geometryOf({ positions, normals, uv, measured = new Float32Array(0), indices }) {
   const geometry = new THREE.BufferGeometry();
   for (const [name, values, size] of [['position', positions, 3], ['normal', normals, 3], ['uv', uv, 2], ['measured', measuredColumns(measured), 3]])
     geometry.setAttribute(name, new THREE.BufferAttribute(values, size));

@@ -83,7 +83,7 @@ export const T = {
     mutations: 'Variations', mutate: 'Vary', strength: 'strength', nothingVaries: 'The text has no number that could vary.', mutant: (n) => `Take variation ${n}`,
     problem: ({ line, column, reason }) => `line ${line}, column ${column}: ${reason}`,
     kinds: { type: 'type', recipe: 'recipe', parameter: 'parameter', function: 'function', variable: 'variable', colour: 'colour', word: '' },
-    nowhere: 'No part has this material yet: drag it onto one.', reliefOnly: 'Its relief is shown, in the colour of the material.', solid: 'It reads the place of the surface: the scene shows it when it is kept.',
+    nowhere: 'No part has this material yet: drag it onto one.', reliefOnly: 'Its relief is shown, in the colour of the material.', layingOut: (left, of) => `It reads the surface: ${left === 1 ? 'one' : left} of ${of} ${of === 1 ? 'surface is' : 'surfaces are'} being laid out for it …`,
   },
   more: (first, n) => n > 1 ? `${first} and ${n - 1} more` : first, scene: 'Scene in 3D', tabs: 'Panels', results: 'Status', none: 'none',
 };

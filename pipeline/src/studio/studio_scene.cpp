@@ -243,6 +243,7 @@ Scene StudioScene::piece(std::uint32_t number, std::uint32_t slot, const std::st
 }
 
 Grain StudioScene::grain_of(const std::string& key, const MaterialRule& rule) {
+  const std::scoped_lock lock(grains_mutex_);
   const auto known =
       std::find_if(grains_.begin(), grains_.end(), [&](const auto& entry) { return entry.first == key; });
   if (known != grains_.end()) {
@@ -265,6 +266,28 @@ StudioSurface StudioScene::as_read(std::uint32_t part, std::uint32_t slot) const
   return surface;
 }
 
+BakeResult StudioScene::bake_piece(const StudioPlan& plan, const StudioWish& wish, bool paints,
+                                   const ProgressCallback& progress) {
+  const MaterialRule& rule = plan.rules.materials.at(wish.material);
+  Materials rules;
+  rules.source = plan.rules.source;
+  rules.materials.emplace(rule.name, rule);
+  AssignRule all;
+  all.part = "*";
+  all.material = rule.name;
+  rules.assign.push_back(std::move(all));
+  GrainMaker maker(rules, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache);
+  report_progress(progress, wish.label, 0);
+  if (!rule.texture.empty()) {
+    Grain grain = grain_of(grain_key(parse_json(wish.rule, plan.rules.source)), rule);
+    grain.solid = grain.solid && paints;
+    maker.put(rule.name, std::move(grain));
+  }
+  report_progress(progress, wish.label, 0.5);
+  const WholeScene whole{context_, in_place_};
+  return bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
+}
+
 StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, const ProgressCallback& progress) {
   const Stopwatch clock;
   if (wish.material.empty()) {
@@ -278,22 +301,7 @@ StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, 
     surface.seconds = clock.seconds();
     return surface;
   }
-  const MaterialRule& rule = plan.rules.materials.at(wish.material);
-  Materials rules;
-  rules.source = plan.rules.source;
-  rules.materials.emplace(rule.name, rule);
-  AssignRule all;
-  all.part = "*";
-  all.material = rule.name;
-  rules.assign.push_back(std::move(all));
-  GrainMaker maker(rules, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache);
-  report_progress(progress, wish.label, 0);
-  if (!rule.texture.empty()) {
-    maker.put(rule.name, grain_of(grain_key(parse_json(wish.rule, plan.rules.source)), rule));
-  }
-  report_progress(progress, wish.label, 0.5);
-  const WholeScene whole{context_, in_place_};
-  BakeResult result = bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
+  BakeResult result = bake_piece(plan, wish, true, progress);
   StudioSurface surface;
   surface.part = wish.part, surface.slot = wish.slot;
   surface.label = wish.label;
