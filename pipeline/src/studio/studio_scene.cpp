@@ -57,21 +57,17 @@ std::string grain_key(Json material) {
   return material.dump();
 }
 
-/// The mesh on its second texture coordinates where a tag lies on those.
-std::optional<ShownMesh> tagged_mesh(const Scene& scene) {
+/// Whether the tag of the scene's one part lies on its second texture coordinates.
+bool is_felt_on_uv1(const Scene& scene) {
   const Part& part = scene.parts[0];
-  if (part.materials.empty()) return std::nullopt;
+  if (part.materials.empty()) return false;
   const auto& tag = scene.materials[part.materials[0]].haptic;
-  if (!tag || tex_coord_of(*tag) != 1) return std::nullopt;
-  TriangleMesh mesh = part.mesh;
-  mesh.uv = mesh.uv1;
-  return shown_mesh(mesh);
+  return tag && tex_coord_of(*tag) == 1;
 }
 
 /// Takes over the mesh of a scene of one part, and the look that is left.
 void take_shown(Scene scene, StudioSurface& surface) {
-  surface.mesh = shown_mesh(scene.parts[0].mesh, surface.report.distortion);
-  surface.tagged_mesh = tagged_mesh(scene);
+  surface.mesh = shown_mesh(scene.parts[0].mesh, surface.report.distortion, is_felt_on_uv1(scene));
   scene.parts.clear();
   scene.nodes.clear();
   scene.roots.clear();

@@ -88,11 +88,9 @@ struct StudioPlan {
 struct StudioSurface {
   std::uint32_t part = 0, slot = 0;
   std::string label, key;
-  ShownMesh mesh;  ///< Without what carriers take.
+  ShownMesh mesh;  ///< Without what carriers take; with uv1 where the haptic tag lies on those.
   /// With that; null where they take nothing.
   std::shared_ptr<const TriangleMesh> whole;
-  /// The same with the second texture coordinates, where the haptic tag lies on those.
-  std::optional<ShownMesh> tagged_mesh;
   /// Its one material with the textures and pictures that it names, as bake_scene() makes them. Without part and node.
   std::shared_ptr<const Scene> look;
   BakedSurface report;  ///< With grain. Its meshes and numbers per triangle are left out.
