@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <mutex>
 #include <ostream>
 #include <system_error>
 #include <vector>
@@ -51,6 +52,32 @@ void check_name(const std::string& name, const std::set<std::string>& extensions
   for (const std::string& extension : extensions) known += (known.empty() ? "" : " ") + extension;
   throw InvalidInput("'" + name + "' must end in one of " + known);
 }
+
+/// A name that is free in the working folder, for as long as a file of that name is under way.
+class ComingName {
+ public:
+  ComingName(const std::string& wanted, std::mutex& mutex, std::set<std::string>& coming)
+      : mutex_(mutex), coming_(coming), name_(wanted) {
+    const std::scoped_lock lock(mutex_);
+    const fs::path plain(wanted);
+    std::error_code error;
+    for (int i = 2; coming_.contains(name_) || fs::exists(fs::symlink_status(name_, error)); ++i)
+      name_ = plain.stem().string() + "-" + std::to_string(i) + plain.extension().string();
+    coming_.insert(name_);
+  }
+  ~ComingName() {
+    const std::scoped_lock lock(mutex_);
+    coming_.erase(name_);
+  }
+  ComingName(const ComingName&) = delete;
+  ComingName& operator=(const ComingName&) = delete;
+  const std::string& name() const noexcept { return name_; }
+
+ private:
+  std::mutex& mutex_;
+  std::set<std::string>& coming_;
+  std::string name_;
+};
 
 }  // namespace
 
@@ -122,11 +149,8 @@ fs::path StudioFiles::checked(const std::string& path) const { return folders_.f
 std::string StudioFiles::receive(const std::string& name, const std::set<std::string>& extensions,
                                  const BodySource& body, const std::function<bool()>& goes_on) const {
   check_name(name, extensions);
-  std::string free = name;
-  const fs::path plain(name);
-  std::error_code error;
-  for (int i = 2; fs::exists(fs::symlink_status(free, error)); ++i)
-    free = plain.stem().string() + "-" + std::to_string(i) + plain.extension().string();
+  const ComingName coming(name, coming_mutex_, coming_);
+  const std::string& free = coming.name();
   checked(free);
   write_atomically(free, [&](std::ostream& out) {
     bool cancelled = false;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -48,7 +49,8 @@ class StudioFiles {
   /// A path in the folders, as the page gave it: relative ones start in the working folder. @throws InvalidInput.
   std::filesystem::path checked(const std::string& path) const;
 
-  /// Takes an upload into the working folder, under its own name where that is free, else with a number behind it.
+  /// Takes an upload into the working folder, under its own name where that is free, else with a number behind it; an
+  /// upload that is under way has its name. Thread-safe.
   /// @param extensions allowed ones, in lower case, with dot. @return the path.
   /// @throws InvalidInput for names that are none, IoError.
   std::string receive(const std::string& name, const std::set<std::string>& extensions, const BodySource& body,
@@ -60,6 +62,8 @@ class StudioFiles {
   std::string scene_, materials_;
   AllowedFolders folders_;
   std::set<std::string> trusted_;  ///< Paths that the file named.
+  mutable std::mutex coming_mutex_;
+  mutable std::set<std::string> coming_;  ///< Names of uploads that are under way.
 };
 
 }  // namespace papilla::app

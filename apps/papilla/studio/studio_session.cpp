@@ -290,7 +290,7 @@ class StudioSession::Studio {
     if (loader_.joinable()) loader_.join();
     cancel_loading_ = false;
     is_loading_ = true;
-    loader_ = std::thread([this, file] {
+    loader_ = std::thread([this, file, number = ++loads_] {
       const auto report = [&](const Progress& done) {
         tell_progress(
             {{"event", "loading"}, {"file", file}, {"stage", std::string(done.stage)}, {"fraction", done.fraction}});
@@ -303,7 +303,8 @@ class StudioSession::Studio {
         BakeFileOptions way;
         way.read = read_options_;
         way.bake = bake_options_;
-        const auto made = std::make_shared<StudioScene>(std::move(scene), bake_options_, bake_way(file, way).in_place);
+        const auto made = std::make_shared<StudioScene>(std::move(scene), bake_options_, bake_way(file, way).in_place,
+                                                        std::to_string(number));
         const std::scoped_lock lock(mutex_);
         if (file != files_.scene()) {
           if (is_dirty()) save();
@@ -311,6 +312,7 @@ class StudioSession::Studio {
           open_document();
         }
         scene_ = made;
+        scene_number_ = number;
         show(plan_of(history_.document()));
         read_seconds_ = clock.seconds();
       } catch (const Cancelled&) {
@@ -409,6 +411,7 @@ class StudioSession::Studio {
         rules.push_back({{"selector", use.selector}, {"surfaces", use.surfaces}, {"problem", use.problem}});
     return {{"version", version_},
             {"scene_file", files_.scene()},
+            {"scene_number", scene_number_},
             {"loading", is_loading_.load()},
             {"load_problem", load_problem_},
             {"read_seconds", read_seconds_},
@@ -660,6 +663,7 @@ class StudioSession::Studio {
   double read_seconds_ = 0;
   std::uint64_t version_ = 1;
   std::shared_ptr<StudioScene> scene_;
+  std::uint64_t scene_number_ = 0;  ///< Another one for each time that a scene was read.
   std::shared_ptr<const StudioPlan> plan_;
 
   std::mutex clients_mutex_;
@@ -668,6 +672,7 @@ class StudioSession::Studio {
   Clock::time_point left_at_, told_at_;
 
   std::mutex load_mutex_;
+  std::uint64_t loads_ = 0;
   std::atomic<bool> cancel_loading_{false}, cancel_upload_{false}, cancel_levels_{false}, is_loading_{false};
   std::thread loader_, keeper_;
   mutable std::mutex picture_mutex_, levels_mutex_, bake_mutex_;

@@ -3,6 +3,7 @@
 // kept in the document as one change.
 import { element } from '../dom.mjs';
 import { get, post } from './api.mjs';
+import { freeName } from './free_name.mjs';
 import { LiveLook } from './live_look.mjs';
 import { RecipeAsker } from './recipe_asker.mjs';
 import { RecipeAtlases } from './recipe_atlases.mjs';
@@ -86,9 +87,7 @@ export class RecipePanel {
   /** The text of a library's recipe as a new material, for what is selected if anything is. */
   async create() {
     await this.ready;
-    const text = this.language.recipes[this.from.value], { materials = {} } = this.studio.state.document, wanted = this.name.value.trim() || this.from.value;
-    let name = wanted;
-    for (let i = 2; name in materials; ++i) name = `${wanted} ${i}`;
+    const text = this.language.recipes[this.from.value], name = freeName(this.name.value.trim() || this.from.value, this.studio.state.document.materials);
     const surfaces = this.studio.slots([...this.studio.selected]), add = { kind: 'add', material: name, values: { '/texture': text, '/size_mm': SIZE_MM, '/show': 'picture' } };
     if (await this.studio.edit(surfaces.length ? [add, { kind: 'assign', surfaces, material: name }] : [add], T.did.add(name))) await this.open(name);
   }

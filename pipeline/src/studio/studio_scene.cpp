@@ -19,6 +19,7 @@
 #include "papilla/pipeline/hex_colour.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/pipeline/studio/parse_materials.hpp"
+#include "studio/file_stamp.hpp"
 #include "studio/made_surface.hpp"
 
 namespace papilla {
@@ -49,6 +50,18 @@ std::string escaped(const std::string& name) {
     pattern += c;
   }
   return pattern;
+}
+
+/// What is made of a material's files depends on this, too.
+std::string stamps_of(const MaterialRule& rule) {
+  std::string stamps;
+  const auto add = [&](const std::filesystem::path& file) {
+    if (const std::string stamp = file_stamp(file); !stamp.empty()) stamps += "\nfile " + stamp;
+  };
+  add(rule.texture), add(rule.environment);
+  for (const std::filesystem::path& image : rule.height.images) add(image);
+  for (const auto& [quantity, map] : rule.maps) add(map.picture);
+  return stamps;
 }
 
 /// A material's JSON without what its grain does not depend on.
@@ -88,8 +101,8 @@ std::string without(const Materials& rules, const Json& replace, const StudioWis
 
 }  // namespace
 
-StudioScene::StudioScene(Scene scene, const BakeOptions& options, bool in_place)
-    : scene_(std::move(scene)), options_(options) {
+StudioScene::StudioScene(Scene scene, const BakeOptions& options, bool in_place, std::string name)
+    : name_(std::move(name)), scene_(std::move(scene)), options_(options) {
   const std::vector<NodePlace> places = node_places(scene_);
   for (const Instance& use : instances(scene_)) uses_.push_back({use.node, use.part, use.world, places[use.node].path});
   for (const Part& part : scene_.parts) slots_.push_back(slots_of(part.mesh));
@@ -188,9 +201,13 @@ StudioPlan StudioScene::plan(const std::string& document, const std::filesystem:
           wish.label += "/" + (slot < shown.materials.size() ? skeleton.materials[shown.materials[slot]].name
                                                              : std::to_string(slot));
         if (const MaterialRule* rule = assignment.parts[part].rule_of(slot)) wish.material = rule->name;
-        wish.key = std::to_string(original) + "/" + std::to_string(slot);
-        if (!wish.material.empty()) wish.rule = materials.at(wish.material).dump();
-        wish.key += " " + wish.label + " " + wish.material + " " + wish.rule + without(plan.rules, replace, wish);
+        wish.key = name_ + " " + std::to_string(original) + "/" + std::to_string(slot);
+        if (!wish.material.empty()) {
+          wish.rule = materials.at(wish.material).dump();
+          wish.files = stamps_of(plan.rules.materials.at(wish.material));
+        }
+        wish.key += " " + wish.label + " " + wish.material + " " + wish.rule + wish.files +
+                    without(plan.rules, replace, wish);
         plan.wishes.push_back(std::move(wish));
       } else {
         plan.wishes[place->second].uses.push_back(u);
@@ -201,7 +218,9 @@ StudioPlan StudioScene::plan(const std::string& document, const std::filesystem:
   for (const Json& decal : json.value("decals", Json::array())) decals.push_back(decal.dump());
   plan.decals = decal_wishes(plan.rules, places, decals, plan.wishes);
   if (plan.rules.replace.empty()) return plan;
-  plan.carriers = carrier_wish(replace.dump(), parts, plan.wishes);
+  std::string pictures;
+  for (const CarrierRule& carrier : plan.rules.replace) pictures += " " + file_stamp(carrier.picture);
+  plan.carriers = carrier_wish(replace.dump() + pictures, parts, plan.wishes);
   plan.carriers->selected = places.carrier_uses;
   return plan;
 }
@@ -275,7 +294,7 @@ BakeResult StudioScene::bake_piece(const StudioPlan& plan, const StudioWish& wis
   GrainMaker maker(rules, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache);
   report_progress(progress, wish.label, 0);
   if (!rule.texture.empty()) {
-    Grain grain = grain_of(grain_key(parse_json(wish.rule, plan.rules.source)), rule);
+    Grain grain = grain_of(grain_key(parse_json(wish.rule, plan.rules.source)) + wish.files, rule);
     grain.solid = grain.solid && paints;
     maker.put(rule.name, std::move(grain));
   }

@@ -38,6 +38,7 @@ struct StudioWish {
   std::string label;                  ///< PartSurface::label.
   std::string material;               ///< Name of an entry of the rules; empty: it stays as it came.
   std::string rule;                   ///< That entry as JSON.
+  std::string files;                  ///< Times and sizes of the files that it names.
   std::string key;                    ///< What is made of it depends on this text alone.
   std::vector<std::size_t> carriers;  ///< Into Materials::replace: those that may take triangles of it.
 };
@@ -134,9 +135,10 @@ struct RecipeAtlas;
 class StudioScene {
  public:
   /// @param options of the bake. Its sheets are turned here, once. @param in_place the file would be edited in place
-  /// (bake_way()): sheets and triangles stay.
+  /// (bake_way()): sheets and triangles stay. @param name  begins the keys of all wishes for its surfaces: those of
+  /// scenes with other names are not taken for them.
   /// @throws as turn_sheets().
-  StudioScene(Scene scene, const BakeOptions& options, bool in_place);
+  StudioScene(Scene scene, const BakeOptions& options, bool in_place, std::string name = {});
 
   const Scene& scene() const noexcept { return scene_; }
   const std::vector<StudioUse>& uses() const noexcept { return uses_; }
@@ -206,6 +208,7 @@ class StudioScene {
   /// Takes what carriers take from a mesh that was made for a wish.
   void take_out(const StudioPlan& plan, const StudioWish& wish, TriangleMesh& mesh, StudioSurface& surface) const;
 
+  std::string name_;
   Scene scene_;
   Scene skeleton_;  ///< The same as it was read, with a triangle for each slot of a part.
   std::vector<std::vector<std::uint32_t>> slots_;
