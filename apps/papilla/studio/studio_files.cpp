@@ -12,6 +12,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/core/read_file.hpp"
+#include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/studio/studio_document.hpp"
 
 namespace papilla::app {
@@ -99,7 +100,18 @@ StudioFiles::StudioFiles(std::string scene, std::string materials)
   if (!scene_.empty()) require_file(scene_);
 }
 
-std::string StudioFiles::scene_stem() const { return fs::path(scene_).stem().string(); }
+std::string StudioFiles::default_output() const {
+  if (scene_.empty()) return {};
+  return fs::path(scene_).stem().string() + (is_gltf_file(scene_) ? "-baked.glb" : ".glb");
+}
+
+std::vector<std::string> StudioFiles::bake_words(const std::string& output, const std::string& report,
+                                                 const std::vector<std::string>& more) const {
+  std::vector<std::string> words = {"papilla", "bake", scene_, "-m", materials_, "-o", output};
+  if (!report.empty()) words.insert(words.end(), {"--report", report});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 void StudioFiles::open(const std::string& scene) {
   scene_ = scene;

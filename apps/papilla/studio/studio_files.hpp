@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "papilla/pipeline/studio/allowed_folders.hpp"
 #include "studio/studio_http.hpp"
@@ -27,7 +28,11 @@ class StudioFiles {
 
   const std::string& scene() const noexcept { return scene_; }
   const std::string& materials() const noexcept { return materials_; }
-  std::string scene_stem() const;
+  /// Of a bake of the scene; empty without one.
+  std::string default_output() const;
+  /// The command line of a bake. @param report  folder; empty: none. @param more  words behind.
+  std::vector<std::string> bake_words(const std::string& output, const std::string& report,
+                                      const std::vector<std::string>& more) const;
 
   /// Another scene, with materials of its own: SCENE.materials.json in the working folder.
   void open(const std::string& scene);
