@@ -59,8 +59,8 @@ std::pair<std::shared_ptr<const RecipeAtlas>, RecipeLook> live(StudioScene& scen
                                                                const std::string& recipe, int side = k_side) {
   const StudioPlan plan = plan_of(scene, kept);
   const auto atlas = scene.recipe_atlas(plan, plan.wishes.at(0), compiled(recipe), side);
-  const std::vector looks = recipe_looks(plan.rules.materials.at("m"), compiled(recipe), compiled(recipe, true),
-                                         std::array{atlas});
+  const std::vector looks =
+      recipe_looks(plan.rules.materials.at("m"), compiled(recipe), compiled(recipe, true), std::array{atlas});
   return {atlas, looks.at(0)};
 }
 
@@ -207,9 +207,9 @@ TEST(RecipeAtlas, RefusesAndCanBeEnded) {
   EXPECT_THROW(scene.recipe_atlas(plan, plan.wishes.at(0), compiled(k_wood), 8), InvalidInput);
   EXPECT_THROW(scene.recipe_atlas(plan, plan.wishes.at(0), compiled(k_wood), 64, ends), Cancelled);
   const auto atlas = scene.recipe_atlas(plan, plan.wishes.at(0), compiled(k_wood), 64);
-  EXPECT_THROW(recipe_looks(plan.rules.materials.at("m"), compiled(k_wood), compiled(k_wood, true), std::array{atlas},
-                            ends),
-               Cancelled);
+  EXPECT_THROW(
+      recipe_looks(plan.rules.materials.at("m"), compiled(k_wood), compiled(k_wood, true), std::array{atlas}, ends),
+      Cancelled);
   EXPECT_NEAR(scene.area_mm2(0, 0), 6 * k_cube_mm * k_cube_mm, 1e-6);
 }
 

@@ -68,7 +68,11 @@ std::vector<StudioAtlases::Laid> StudioAtlases::ask(const std::string& material,
     jobs_.clear();
     for (const auto& [wish, mm2] : wishes) {
       const int own = side_of(side, all_mm2 > 0 ? mm2 / all_mm2 : 1);
-      Job job{plan_, wish, texture, own, short_name(recipe_atlas_key(*wish, texture, own)),
+      Job job{plan_,
+              wish,
+              texture,
+              own,
+              short_name(recipe_atlas_key(*wish, texture, own)),
               short_name(recipe_atlas_key(*wish, texture, 0))};
       Laid& laid = list.emplace_back(Laid{wish->part, wish->slot, wish->uses.front(), job.name, nullptr, false, {}});
       const Entry* entry = find([&](const Entry& e) { return e.name == job.name; });

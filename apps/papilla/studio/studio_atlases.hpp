@@ -20,8 +20,8 @@
 
 namespace papilla::app {
 
-/// The surfaces of a material laid out for a recipe that reads them: each once, in a thread of its own, and kept for the
-/// looks that follow.
+/// The surfaces of a material laid out for a recipe that reads them: each once, in a thread of its own, and kept for
+/// the looks that follow.
 class StudioAtlases {
  public:
   struct Laid {

@@ -58,9 +58,8 @@ void StudioBaking::end() {
 PageAnswer StudioBaking::report_page() const {
   const std::scoped_lock lock(mutex_);
   if (report_.empty()) throw InvalidInput("no report was written");
-  return bytes_answer(
-      "text/html; charset=utf-8",
-      std::make_shared<const std::string>(with_review(read_file(files_.checked(report_ + "/index.html")))));
+  return bytes_answer("text/html; charset=utf-8", std::make_shared<const std::string>(
+                                                      with_review(read_file(files_.checked(report_ + "/index.html")))));
 }
 
 void add_bake_routes(StudioRoutes& routes, StudioBaking& baking) {

@@ -181,9 +181,8 @@ void StudioDesk::take_scene(const StudioLoader::Loaded& loaded) {
 
 Json StudioDesk::upload(const Query& query, const BodySource& body, bool is_scene) {
   is_upload_cancelled_ = false;
-  const std::string file =
-      files_.receive(required(query, "name"), is_scene ? scene_extensions() : picture_extensions(), body,
-                     [this] { return !is_upload_cancelled_; });
+  const std::string file = files_.receive(required(query, "name"), is_scene ? scene_extensions() : picture_extensions(),
+                                          body, [this] { return !is_upload_cancelled_; });
   if (is_scene) loader_->load(file);
   return {{"file", file}};
 }

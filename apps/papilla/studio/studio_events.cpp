@@ -24,9 +24,7 @@ void StudioEvents::hear(std::function<void(const std::string& text)> message) {
   message_ = std::move(message);
 }
 
-void StudioEvents::tell(const Json& event) {
-  socket_.send(event.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
+void StudioEvents::tell(const Json& event) { socket_.send(event.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
 void StudioEvents::tell_progress(const Json& event) {
   const auto now = Clock::now();

@@ -23,7 +23,8 @@ class StudioEvents {
   int port() const noexcept { return socket_.port(); }
   /// Begins to serve. Once. @param admits as of SocketHandlers.
   void start(decltype(SocketHandlers::admits) admits);
-  /// Who gets the messages of pages, from the socket's thread; empty: nobody. None comes any more to whom it was before.
+  /// Who gets the messages of pages, from the socket's thread; empty: nobody. None comes any more to whom it was
+  /// before.
   void hear(std::function<void(const std::string& text)> message);
 
   void tell(const Json& event);

@@ -39,8 +39,8 @@ void StudioLoader::run(const std::string& file, std::uint64_t number) {
     BakeFileOptions way;
     way.read = read_;
     way.bake = bake_;
-    const auto made = std::make_shared<StudioScene>(std::move(scene), bake_, bake_way(file, way).in_place,
-                                                    std::to_string(number));
+    const auto made =
+        std::make_shared<StudioScene>(std::move(scene), bake_, bake_way(file, way).in_place, std::to_string(number));
     handlers_.taken({file, made, number, clock.seconds()});
   } catch (const Cancelled&) {
     problem = "cancelled";

@@ -8,16 +8,16 @@ namespace papilla::app {
 namespace {
 
 StudioWorker::Handlers handlers_telling(StudioEvents& events) {
-  return {[&events](const StudioSurface& surface, const std::string& name) {
-            events.tell(
-                {{"event", "ready"}, {"surface", name}, {"label", surface.label}, {"seconds", surface.seconds}});
-          },
-          [&events](const std::string& label, const std::string& name, const std::string& problem) {
-            events.tell({{"event", "failed"}, {"label", label}, {"surface", name}, {"problem", problem}});
-          },
-          [&events](std::size_t left, const std::string& label) {
-            events.tell({{"event", "working"}, {"left", left}, {"label", label}});
-          }};
+  return {
+      [&events](const StudioSurface& surface, const std::string& name) {
+        events.tell({{"event", "ready"}, {"surface", name}, {"label", surface.label}, {"seconds", surface.seconds}});
+      },
+      [&events](const std::string& label, const std::string& name, const std::string& problem) {
+        events.tell({{"event", "failed"}, {"label", label}, {"surface", name}, {"problem", problem}});
+      },
+      [&events](std::size_t left, const std::string& label) {
+        events.tell({{"event", "working"}, {"left", left}, {"label", label}});
+      }};
 }
 
 }  // namespace

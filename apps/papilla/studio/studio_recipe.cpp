@@ -107,10 +107,8 @@ Json placed(const std::vector<unsigned char>& pixels, std::string& all) {
 }
 
 Json look_json(const RecipeLook& look, std::string& all) {
-  Json json = {{"width", look.width},
-               {"height", look.height},
-               {"roughness", look.roughness},
-               {"metallic", look.metallic}};
+  Json json = {
+      {"width", look.width}, {"height", look.height}, {"roughness", look.roughness}, {"metallic", look.metallic}};
   json["color"] = placed(look.color, all);
   json["normal"] = placed(look.normal, all);
   json["shine"] = placed(look.shine, all);
@@ -193,9 +191,9 @@ SharedText StudioRecipe::look(const Json& wanted) {
   const auto text = wanted.at("text").get<std::string>();
   const double time = time_of(wanted);
   const Places places(text);
-  Json answer = {{"problem", nullptr},   {"textures", nullptr}, {"uses_time", false},
+  Json answer = {{"problem", nullptr},     {"textures", nullptr}, {"uses_time", false},
                  {"needs_atlas", nullptr}, {"cancelled", false},  {"look", nullptr},
-                 {"surfaces", nullptr},  {"under_way", 0},      {"surface_problems", Json::array()}};
+                 {"surfaces", nullptr},    {"under_way", 0},      {"surface_problems", Json::array()}};
   std::string pixels;
   try {
     answer["textures"] = outline_json(outline_recipe(text, handlers_.library), text, places);

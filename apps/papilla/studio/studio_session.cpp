@@ -32,8 +32,8 @@ constexpr std::chrono::milliseconds k_look{50};
 
 }  // namespace
 
-/// Puts the studio together: whom it serves, and what by which path. Later members use earlier ones and end first; before
-/// them those who ask.
+/// Puts the studio together: whom it serves, and what by which path. Later members use earlier ones and end first;
+/// before them those who ask.
 class StudioSession::Studio {
  public:
   Studio(const StudioOptions& options, const VerbContext& context)

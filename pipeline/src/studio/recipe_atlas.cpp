@@ -53,7 +53,8 @@ std::shared_ptr<const RecipeAtlas> StudioScene::recipe_atlas(const StudioPlan& p
   require_look_side(side);
   BakeResult result = bake_piece(plan, wish, false, progress);
   Scene& scene = result.scene;
-  if (scene.parts[0].materials.empty()) return nullptr;
+  const auto grain = result.grains.find(wish.material);
+  if (grain == result.grains.end() || scene.parts[0].materials.empty()) return nullptr;
   const std::uint32_t material = scene.parts[0].materials[0];
   const auto& place = scene.materials[material].normal_texture;
   if (!place) return nullptr;
@@ -63,7 +64,7 @@ std::shared_ptr<const RecipeAtlas> StudioScene::recipe_atlas(const StudioPlan& p
     if (!sky) sky = sky_of(scene, all, k_solid_sky_rays);
     return *sky;
   };
-  const int texels_per_repeat = std::min(side, result.grains.at(wish.material).relief.width);
+  const int texels_per_repeat = std::min(side, grain->second.relief.width);
   auto surface = std::make_shared<MaterialSurface>(
       lay_out(scene, all, material, &*place, texels_per_repeat, side, reading_of(texture), sky_of_piece));
   if (!(surface->mm_per_repeat > 0)) return nullptr;

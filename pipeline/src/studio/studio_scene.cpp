@@ -206,8 +206,8 @@ StudioPlan StudioScene::plan(const std::string& document, const std::filesystem:
           wish.rule = materials.at(wish.material).dump();
           wish.files = stamps_of(plan.rules.materials.at(wish.material));
         }
-        wish.key += " " + wish.label + " " + wish.material + " " + wish.rule + wish.files +
-                    without(plan.rules, replace, wish);
+        wish.key +=
+            " " + wish.label + " " + wish.material + " " + wish.rule + wish.files + without(plan.rules, replace, wish);
         plan.wishes.push_back(std::move(wish));
       } else {
         plan.wishes[place->second].uses.push_back(u);

@@ -71,8 +71,9 @@ std::vector<std::string> suggest_recipes(std::string_view material, const Recipe
 /// components of vectors (of a direction by up to strength/2 of its length), and numbers with a decimal point in
 /// formulas. Colours, written out or named, change in OKLCh: all of one value by the same hue, up to 60° strength, and
 /// the same factor of chroma, 1 ± strength; each by its own lightness, up to strength/4; chroma that sRGB does not have
-/// is left out. Named recipes, lists of colours and layers are written out and changed, too. Same seed, same recipe.
-/// A recipe that compiles still does. @pre strength in [0, 1]. @throws InvalidInput when the text is no recipe.
+/// is left out. limitlo and limithi, which must not cross, stay. Named recipes, lists of colours and layers are written
+/// out and changed, too. Same seed, same recipe. @pre strength in [0, 1]. @throws InvalidInput when the text is no
+/// recipe.
 std::string mutate_recipe(std::string_view recipe, const RecipeLibrary& library, unsigned seed, double strength);
 
 }  // namespace papilla

@@ -46,8 +46,8 @@ void require_look_side(int side);
 RecipeLook recipe_look(const MaterialRule& rule, const ProceduralTexture& texture, int side,
                        const ProgressCallback& progress = {});
 
-/// The same on surfaces, one look each, at the coordinates of `RecipeAtlas::mesh`: what StudioScene::bake() shows of the
-/// rule with this recipe, at the atlas' resolution and but for slopes and roughness as above. Whether the colour is
+/// The same on surfaces, one look each, at the coordinates of `RecipeAtlas::mesh`: what StudioScene::bake() shows of
+/// the rule with this recipe, at the atlas' resolution and but for slopes and roughness as above. Whether the colour is
 /// shown where `show` is "auto" is found from 64 x 64 samples of the tile, the bake's from 512 x 512.
 /// Cost: that of evaluate_texture() for all texels that show something.
 /// @param texture, tiling  of the recipe, not seamless and seamless. @param atlases  laid out for it; none is null.

@@ -161,9 +161,9 @@ class StudioScene {
   /// @throws as bake_scene().
   StudioSurface bake(const StudioPlan& plan, const StudioWish& wish, const ProgressCallback& progress = {});
 
-  /// A surface laid out for a recipe in place of its material's own, as bake() does, but for about side x side texels at
-  /// most. May run beside bake(). Cost: that of bake() without painting, and O(texels). @return null where nothing with
-  /// uv shows it. @param texture  of the recipe, not seamless. @throws as bake_scene() and cut_surface().
+  /// A surface laid out for a recipe in place of its material's own, as bake() does, but for about side x side texels
+  /// at most. May run beside bake(). Cost: that of bake() without painting, and O(texels). @return null where nothing
+  /// with uv shows it. @param texture  of the recipe, not seamless. @throws as bake_scene() and cut_surface().
   std::shared_ptr<const RecipeAtlas> recipe_atlas(const StudioPlan& plan, const StudioWish& wish,
                                                   const ProceduralTexture& texture, int side,
                                                   const ProgressCallback& progress = {});
@@ -219,7 +219,7 @@ class StudioScene {
   BakeOptions options_;
   PartContext context_;
   bool in_place_ = false;
-  bool shares_copies_ = true;                        ///< The bake does.
+  bool shares_copies_ = true;  ///< The bake does.
   std::mutex grains_mutex_;
   std::list<std::pair<std::string, Grain>> grains_;  ///< By what they are made of; used last, first.
   mutable std::mutex pictures_mutex_;
