@@ -240,7 +240,10 @@ try {
     }
     return { colours: found, laid: Boolean(shown.laid), width, height };
   }, DASH);
-  const atlasLooked = async () => { await looked(); await page.waitForFunction(() => document.getElementById('panel-recipe').dataset.underWay === '0' && document.getElementById('recipe-note').textContent === ''); await looked(); };
+  const atlasLooked = () => page.waitForFunction(() => {
+    const { recipe: { asker, looks } } = globalThis.studio, { dataset } = document.getElementById('panel-recipe');
+    return !asker.isRunning && asker.isFine && asker.wanted === asker.answered && Number(dataset.looks) === looks && dataset.underWay === '0';
+  });
   // Waves of 0.4 m: 0.4 · 2π/400 a mm at most.
   const SOLID = 'base|colorfunction=rgb(.5+.4*s(15.7*posx),.5+.4*s(15.7*posy),.5+.4*s(15.7*posz))';
   await page.fill('#recipe-text', SOLID);

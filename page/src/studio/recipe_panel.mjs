@@ -197,8 +197,8 @@ export class RecipePanel {
 
   async showLook(answer) {
     try {
-      const number = this.newest = ++this.looks, looks = await this.looksOf(answer);
-      if (number !== this.newest || this.material === null) return;
+      const number = ++this.looks, looks = await this.looksOf(answer);
+      if (number !== this.looks || this.material === null) return;
       this.note.textContent = this.noteOf(answer, [...looks.values()]);
       if (this.isChanged || !this.isBaked) this.live.show(looks);
       else this.live.hide();
