@@ -106,7 +106,7 @@ Json placed(const std::vector<unsigned char>& pixels, std::string& all) {
   return place;
 }
 
-Json look_json(const RecipeLook& look, std::string& all) {
+Json recipe_look_json(const RecipeLook& look, std::string& all) {
   Json json = {
       {"width", look.width}, {"height", look.height}, {"roughness", look.roughness}, {"metallic", look.metallic}};
   json["color"] = placed(look.color, all);
@@ -180,7 +180,7 @@ Json StudioRecipe::looks_on_surfaces(const Json& wanted, const MaterialRule& rul
   const std::vector<RecipeLook> looks = recipe_looks(rule, texture, tiling, atlases, progress);
   Json list = Json::array();
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    Json& one = list.emplace_back(look_json(looks[i], pixels));
+    Json& one = list.emplace_back(recipe_look_json(looks[i], pixels));
     one["part"] = laid[i].part, one["slot"] = laid[i].slot, one["use"] = laid[i].use, one["mesh"] = laid[i].name;
   }
   return list;
@@ -205,7 +205,7 @@ SharedText StudioRecipe::look(const Json& wanted) {
     if (needs_atlas(texture) || has_atlases(rule))
       answer["surfaces"] = looks_on_surfaces(wanted, rule, texture, answer, is_newest, pixels);
     else
-      answer["look"] = look_json(recipe_look(rule, texture, look_side(wanted), is_newest), pixels);
+      answer["look"] = recipe_look_json(recipe_look(rule, texture, look_side(wanted), is_newest), pixels);
   } catch (const Cancelled&) {
     answer["cancelled"] = true;
   } catch (const InvalidInput& error) {
