@@ -38,9 +38,9 @@ struct StudioWish {
   std::string label;                  ///< PartSurface::label.
   std::string material;               ///< Name of an entry of the rules; empty: it stays as it came.
   std::string rule;                   ///< That entry as JSON.
-  std::string files;                  ///< Times and sizes of the files that it names.
   std::string key;                    ///< What is made of it depends on this text alone.
   std::vector<std::size_t> carriers;  ///< Into Materials::replace: those that may take triangles of it.
+  std::string files = {};             ///< Times and sizes of the files that its material names.
 };
 
 /// A decal of a document and the surfaces that it may lie on.
