@@ -17,8 +17,6 @@
 namespace papilla {
 namespace {
 
-constexpr int k_sky_rays = 64;
-
 /// The texels of one repeat, those of the tile.
 int texels_per_repeat(const Grain& tile) { return tile.relief.width; }
 
@@ -29,7 +27,7 @@ std::vector<SolidGrain> paint_solid(Scene& scene, std::span<const SolidUse> uses
   const std::vector<Instance> all = instances(scene);
   std::optional<SkyView> sky;
   const auto sky_of_scene = [&]() -> const SkyView& {
-    if (!sky) sky = sky_of(scene, all, k_sky_rays);
+    if (!sky) sky = sky_of(scene, all, k_solid_sky_rays);
     return *sky;
   };
   std::optional<StainField> stains;

@@ -28,6 +28,8 @@ struct SolidGrain {
 
 /// Texels of an atlas a side at most.
 inline constexpr int k_solid_atlas_side = 2048;
+/// By which what hides the sky of a texel is found.
+inline constexpr int k_solid_sky_rays = 64;
 
 /// Paints the recipes on the surfaces that show the materials, where they stand in the scene, and gives the scene the
 /// coordinates of the atlases; those that there were move to channel 1.

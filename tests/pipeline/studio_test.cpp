@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/temporary_folder.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/pipeline/studio/allowed_folders.hpp"
 #include "papilla/pipeline/studio/shown_levels.hpp"
@@ -298,6 +300,34 @@ TEST(StudioScene, ASurfaceIsWhatABakeMakesOfIt) {
   ASSERT_EQ(surface.look->materials.size(), 1U);
   ASSERT_TRUE(surface.look->materials[0].normal_texture);
   EXPECT_EQ(surface.report.method, "planar");
+}
+
+TEST(StudioScene, KeysTellFilesAndScenesApart) {
+  const TemporaryFolder folder("papilla-studio-keys");
+  const std::string document = R"({"materials": {"g": {"texture": "a.png", "size_mm": [10, 10]}},
+    "assign": [{"part": "a", "material": "g"}],
+    "decals": [{"picture": "b.png", "at": [10, 10, 0], "direction": [0, 0, -1], "up": [0, 1, 0], "size_mm": [5, 5],
+                "depth_mm": 5}],
+    "replace": [{"part": "a", "picture": "c.png"}]})";
+  const auto keys = [&](const StudioScene& scene) {
+    const StudioPlan plan = scene.plan(document, folder / "m.json", {});
+    const auto wish = std::find_if(plan.wishes.begin(), plan.wishes.end(), [](const auto& w) { return w.part == 0; });
+    return std::array{wish->key, plan.decals.at(0).key, plan.carriers.value().key};
+  };
+  for (const char* name : {"a.png", "b.png", "c.png"}) write_atomically(folder / name, "one");
+  const StudioScene first(plates(), {}, false, "1"), again(plates(), {}, false, "2");
+  const auto before = keys(first);
+  EXPECT_EQ(before, keys(first));
+  const auto other = keys(again);
+  for (std::size_t k = 0; k < before.size(); ++k) EXPECT_NE(before[k], other[k]) << k;
+  std::array<std::string, 3> last = before;
+  for (const auto& [name, changed] : {std::pair("b.png", 1U), std::pair("c.png", 2U), std::pair("a.png", 0U)}) {
+    write_atomically(folder / name, "another");
+    const auto now = keys(first);
+    EXPECT_NE(now[changed], last[changed]) << name;
+    EXPECT_EQ(now[0] == last[0], changed != 0) << name << ": a surface has what it is made of in its key";
+    last = now;
+  }
 }
 
 TEST(StudioScene, GivesUpWhenItIsToldTo) {

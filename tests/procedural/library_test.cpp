@@ -197,28 +197,5 @@ TEST(Library, SuggestsByNameAndMaterial) {
   EXPECT_TRUE(suggest_recipes("xyzzy", library).empty());
 }
 
-TEST(Library, MutationStaysInRangeAndDependsOnTheSeedAlone) {
-  const std::string recipe = "fbm|octaves=18.5|h=.5|cols=red,blue";
-  EXPECT_EQ(mutate_recipe(recipe, {}, 7, 0.5), mutate_recipe(recipe, {}, 7, 0.5));
-  EXPECT_NE(mutate_recipe(recipe, {}, 7, 0.5), mutate_recipe(recipe, {}, 8, 0.5));
-  for (unsigned seed = 0; seed < 50; ++seed) EXPECT_NO_THROW(compile_texture(mutate_recipe(recipe, {}, seed, 1), {}));
-}
-
-TEST(Library, MutationReachesNamedRecipesLayersAndFormulas) {
-  RecipeLibrary library;
-  library.add("spots", "circle|r=.3|bumpfunction=main*2.5+get(0)+[fbm|h=.4]");
-  EXPECT_EQ(mutate_recipe("spots", library, 1, 0), "circle|r=0.3|bumpfunction=main*2.5+get(0)+[fbm|h=.4]");
-  const std::string layers = mutate_recipe("multi|textures=spots,[noise|scale=.2]", library, 3, 0.5);
-  EXPECT_EQ(layers.find("multi|textures=[circle|r=0."), 0U) << layers;
-  EXPECT_EQ(layers.find("r=0.3|"), std::string::npos) << layers;
-  EXPECT_EQ(layers.find("*2.5+"), std::string::npos) << layers;
-  EXPECT_NE(layers.find("get(0)+[fbm|h=.4]"), std::string::npos) << layers;
-  EXPECT_NO_THROW(compile_texture(layers, library));
-  const RecipeLibrary builtin = RecipeLibrary::builtin();
-  for (const auto& [name, recipe] : builtin.recipes())
-    for (unsigned seed = 1; seed < 4; ++seed)
-      EXPECT_NO_THROW(compile_texture(mutate_recipe(name, builtin, seed, 0.3), builtin)) << name;
-}
-
 }  // namespace
 }  // namespace papilla

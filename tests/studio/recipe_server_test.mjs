@@ -36,8 +36,8 @@ try {
   assert.equal(Object.keys(language.types).length, 32);
   assert.equal(language.types.star.parameters.find(({ name }) => name === 'jags').kind, 'integer');
   assert.ok(language.common.some(({ name }) => name === 'cols') && language.recipes.leather.includes('|'));
-  const { text, time, needs_atlas: isSolid } = await get('/recipe-of', '&material=wall');
-  assert.deepEqual([text, time, isSolid], [RECIPE, 0, false]);
+  const { text, time } = await get('/recipe-of', '&material=wall');
+  assert.deepEqual([text, time], [RECIPE, 0]);
   for (const material of ['hard', 'gone', '']) assert.equal((await ask(port, `/recipe-of${good}&material=${material}`)).status, 409, material);
 
   // Completions.
@@ -58,7 +58,7 @@ try {
 
   // The outline, and a look in pixels.
   const seen = await look(RECIPE);
-  assert.deepEqual([seen.problem, seen.uses_time, seen.needs_atlas, seen.look.side], [null, false, false, 64]);
+  assert.deepEqual([seen.problem, seen.uses_time, seen.needs_atlas, seen.look.width, seen.look.height, seen.surfaces], [null, false, false, 64, 64, null]);
   const [{ parameters: [scale, cols] }] = seen.textures;
   assert.deepEqual([scale.name, RECIPE.slice(...scale.numbers[0].at), scale.numbers[0].value], ['scale', '.5', 0.5]);
   assert.deepEqual(cols.colours.map(({ at }) => RECIPE.slice(...at)), ['grey', '<.7,.2,.1>']);
@@ -67,7 +67,40 @@ try {
   const red = await look(RECIPE.replace('<.7,.2,.1>', '<1,0,0>'));
   assert.ok(!red.pixels(red.look.color).equals(seen.pixels(seen.look.color)) && red.pixels(red.look.normal).equals(seen.pixels(seen.look.normal)), 'the colour alone differs');
   assert.equal((await look('rusty_paint')).uses_time, true);
-  assert.equal((await look('base|mainfunction=posx')).needs_atlas, true);
+
+  // One that reads the surface has a look on each surface of its material, as soon as that is laid out, and then at once.
+  const SOLID = 'base|mainfunction=.5+.5*s(200*posx)|cols=black,red', laidOut = async (recipe, more) => {
+    for (;;) {
+      const found = await look(recipe, { side: 128, ...more });
+      if (!found.under_way) return found;
+      await new Promise((again) => setTimeout(again, 20));
+    }
+  };
+  const onto = await laidOut(SOLID), [only] = onto.surfaces;
+  assert.deepEqual([onto.problem, onto.needs_atlas, onto.look, onto.surfaces.length, onto.surface_problems], [null, true, null, 1, []]);
+  assert.deepEqual([only.part, only.slot, only.use], [0, 0, 0]);
+  for (const map of ['color', 'normal']) assert.equal(onto.pixels(only[map]).length, 4 * only.width * only.height);
+  const meshOf = async (name) => {
+    const { status, bytes } = await ask(port, `/recipe-atlas${good}&id=${name}`), length = bytes.readUInt32LE(0), { arrays } = JSON.parse(bytes.subarray(4, 4 + length).toString());
+    return { status, array: ({ at, count }) => Array.from({ length: count }, (_, i) => bytes.readFloatLE(4 + length + at + 4 * i)), arrays };
+  };
+  const mesh = await meshOf(only.mesh), places = mesh.array(mesh.arrays.positions), uv = mesh.array(mesh.arrays.uv), rgba = onto.pixels(only.color);
+  for (const share of [0.25, 0.5, 0.75]) {  // Along the diagonal from (0, 0) to (40, 30), which both triangles have.
+    const corner = (x, y) => { const i = [...places.keys()].find((k) => k % 3 === 0 && Math.hypot(places[k] - x, places[k + 1] - y) < 1e-3) / 3; return [uv[2 * i], uv[2 * i + 1]]; };
+    const [a, b] = [corner(0, 0), corner(40, 30)], [u, v] = [0, 1].map((k) => a[k] + share * (b[k] - a[k]));
+    const wrap = (n, count) => ((Math.floor(n) % count) + count) % count, texel = wrap(v * only.height, only.height) * only.width + wrap(u * only.width, only.width);
+    const wanted = 255 * (0.5 + 0.5 * Math.sin(200 * 0.04 * share));
+    assert.ok(Math.abs(rgba[4 * texel] - wanted) < 255 * 0.5 * 200 * 0.001 * 2 && rgba[4 * texel + 1] === 0, `${rgba[4 * texel]} is not ${wanted}`);
+  }
+  assert.equal((await look(SOLID.replace('200', '90'), { side: 128 })).under_way, 0, 'another recipe that looks at the same has the atlas at once');
+  assert.equal((await look(SOLID, { side: 128, material: 'hard' })).surfaces.length, 0, 'of no surface');
+  assert.equal((await ask(port, `/recipe-atlas${good}&id=none`)).status, 409);
+  // Where the document's recipe reads the surface, another one is shown on the atlas, too.
+  await json('/edit', { kind: 'set', material: 'wall', values: { '/texture': SOLID } });
+  const plain = await laidOut(RECIPE, { side: 64 });
+  assert.deepEqual([plain.needs_atlas, plain.look, plain.surfaces.length], [false, null, 1]);
+  assert.ok(plain.pixels(plain.surfaces[0].color).equals(seen.pixels(seen.look.color)), 'its tile');
+  await json('/undo', {});
   for (const more of [{ side: 4 }, { side: 5000 }]) assert.ok((await look(RECIPE, more)).problem, JSON.stringify(more));
   for (const more of [{ time: 2 }, { text: 7 }, { side: 'x' }]) assert.equal((await post('/recipe', { material: 'wall', text: RECIPE, time: 0, side: 64, ...more })).status, 409, JSON.stringify(more));
   // No picture from elsewhere.

@@ -144,7 +144,7 @@ try {
   await page.locator('#recipe-keep').click();
   await page.waitForFunction((name) => globalThis.studio.state.document.materials[name].texture.includes('<0,1,0>'), WALL);
   await all();
-  await page.waitForFunction(() => globalThis.studio.recipe.live.look === null);
+  await page.waitForFunction(() => globalThis.studio.recipe.live.looks.size === 0);
   assert.equal((await dash()).isLive, false);
 
   // ---- Undone and done again: the text follows.
@@ -209,7 +209,7 @@ try {
   execFileSync(papilla, ['bake', 'cockpit.step', '-m', 'm.json', '-o', 'again.glb', '-q'], { cwd: work });
   assert.ok(readFileSync(join(work, 'studio.glb')).equals(readFileSync(join(work, 'again.glb'))), 'the command line gives other bytes');
 
-  // ---- A recipe of the library as a new material; one that reads the place waits until it is kept.
+  // ---- A recipe of the library as a new material.
   await page.locator('#tab-materials').click();
   await page.locator('#add-recipe').click();
   await page.locator('#recipe-from').selectOption('oak');
@@ -219,11 +219,61 @@ try {
   await page.waitForFunction((label) => globalThis.studio.state.surfaces.find((s) => s.label === label).material === 'my oak', DASH);
   assert.ok((await page.evaluate(() => globalThis.studio.state.document.materials['my oak'].texture)).includes('|'), 'its text, not its name');
   await all();
-  await page.fill('#recipe-text', 'base|mainfunction=.5+.5*s(400*posy)|cols=brown,tan');
-  await page.waitForFunction(() => document.getElementById('recipe-note').textContent.startsWith('It reads the place'));
-  assert.equal((await dash()).isLive, false);
-  await page.locator('#recipe-revert').click();
-  await page.waitForFunction(() => document.getElementById('recipe-state').textContent === 'kept');
+
+  // ---- One that reads the surface is seen on the scene, too, and as it is when it is kept.
+  /** Colours of the dash where its triangles have their middles, in [0, 1]: of what is shown, by what it is shown with. */
+  const coloursOfDash = () => page.evaluate((label) => {
+    const { studio: s } = globalThis, shown = s.view.surfaces.get(s.keyOf(s.state.surfaces.find((x) => x.label === label))), { map } = shown.material;
+    const { geometry } = shown.meshes[0], position = geometry.getAttribute('position'), uv = geometry.getAttribute('uv'), index = geometry.index.array, { width, height } = map.image;
+    let { data } = map.image;
+    if (!data) {
+      const context = new OffscreenCanvas(width, height).getContext('2d');
+      context.drawImage(map.image, 0, 0);
+      ({ data } = context.getImageData(0, 0, width, height));
+    }
+    const texel = (x, y, k) => data[4 * ((y % height + height) % height * width + (x % width + width) % width) + k] / 255;
+    const found = [], step = 3 * Math.max(1, Math.floor(index.length / 3 / 400));
+    for (let t = 0; t < index.length; t += step) {
+      const corners = [0, 1, 2].map((k) => index[t + k]), mean = (of) => corners.reduce((sum, i) => sum + of(i), 0) / 3;
+      const x = mean((i) => uv.getX(i)) * width - 0.5, y = mean((i) => uv.getY(i)) * height - 0.5, [i, j] = [Math.floor(x), Math.floor(y)], [a, b] = [x - i, y - j];
+      found.push({ place: ['getX', 'getY', 'getZ'].map((get) => mean((n) => position[get](n))), rgb: [0, 1, 2].map((k) => (1 - b) * ((1 - a) * texel(i, j, k) + a * texel(i + 1, j, k)) + b * ((1 - a) * texel(i, j + 1, k) + a * texel(i + 1, j + 1, k))) });
+    }
+    return { colours: found, laid: Boolean(shown.laid), width, height };
+  }, DASH);
+  const atlasLooked = () => page.waitForFunction(() => {
+    const { recipe: { asker, looks } } = globalThis.studio, { dataset } = document.getElementById('panel-recipe');
+    return !asker.isRunning && asker.isFine && asker.wanted === asker.answered && Number(dataset.looks) === looks && dataset.underWay === '0';
+  });
+  // Waves of 0.4 m: 0.4 · 2π/400 a mm at most.
+  const SOLID = 'base|colorfunction=rgb(.5+.4*s(15.7*posx),.5+.4*s(15.7*posy),.5+.4*s(15.7*posz))';
+  await page.fill('#recipe-text', SOLID);
+  await page.waitForFunction(() => /^It reads the surface: .* being laid out/.test(document.getElementById('recipe-note').textContent) || document.getElementById('panel-recipe').dataset.underWay === '0');
+  await atlasLooked();
+  const asLive = await coloursOfDash();
+  assert.ok(asLive.laid && (await dash()).isLive && new Set(asLive.colours.map(({ rgb }) => rgb[0].toFixed(1))).size > 2, JSON.stringify(asLive).slice(0, 400));
+  await page.screenshot({ path: join(pictures, 'solid.png') });
+  // Another one that looks at the same has its picture at once: the atlas is not made again.
+  const mesh = () => page.evaluate(() => [...globalThis.studio.recipe.atlases.fetched.keys()].sort().join());
+  const meshes = await mesh();
+  await page.fill('#recipe-text', SOLID.replaceAll('15.7', '7'));
+  await atlasLooked();
+  assert.equal(await mesh(), meshes);
+  await page.fill('#recipe-text', SOLID);
+  await atlasLooked();
+  await page.locator('#recipe-keep').click();
+  await page.waitForFunction((t) => globalThis.studio.state.document.materials['my oak'].texture === t, SOLID);
+  await all();
+  await page.waitForFunction(() => globalThis.studio.recipe.live.looks.size === 0);
+  const asKept = await coloursOfDash();
+  assert.ok(!asKept.laid && asKept.colours.length === asLive.colours.length);
+  // Both are the recipe to a texel of theirs, those of the preview being at most this long.
+  const farthest = Math.max(...asLive.colours.flatMap(({ rgb }, i) => rgb.map((v, k) => Math.abs(v - asKept.colours[i].rgb[k]))));
+  console.log(`live and kept: atlases of ${asLive.width} x ${asLive.height} and ${asKept.width} x ${asKept.height}, colours at most ${farthest.toFixed(4)} apart`);
+  assert.ok(asLive.colours.every(({ place }, i) => place.every((c, k) => Math.abs(c - asKept.colours[i].place[k]) < 1e-3)), 'the same places');
+  assert.ok(farthest < 0.05, String(farthest));
+  await page.locator('#undo').click();
+  await page.waitForFunction(() => document.getElementById('recipe-state').textContent === 'kept' && !document.getElementById('recipe-text').value.startsWith('base'));
+  await all();
   // A material without a recipe says so.
   await page.locator('#tab-materials').click();
   await page.locator('#own [data-material=flat]').click();

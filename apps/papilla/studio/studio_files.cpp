@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <mutex>
 #include <ostream>
 #include <system_error>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/core/read_file.hpp"
+#include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/studio/studio_document.hpp"
 
 namespace papilla::app {
@@ -52,6 +54,32 @@ void check_name(const std::string& name, const std::set<std::string>& extensions
   throw InvalidInput("'" + name + "' must end in one of " + known);
 }
 
+/// A name that is free in the working folder, for as long as a file of that name is under way.
+class ComingName {
+ public:
+  ComingName(const std::string& wanted, std::mutex& mutex, std::set<std::string>& coming)
+      : mutex_(mutex), coming_(coming), name_(wanted) {
+    const std::scoped_lock lock(mutex_);
+    const fs::path plain(wanted);
+    std::error_code error;
+    for (int i = 2; coming_.contains(name_) || fs::exists(fs::symlink_status(name_, error)); ++i)
+      name_ = plain.stem().string() + "-" + std::to_string(i) + plain.extension().string();
+    coming_.insert(name_);
+  }
+  ~ComingName() {
+    const std::scoped_lock lock(mutex_);
+    coming_.erase(name_);
+  }
+  ComingName(const ComingName&) = delete;
+  ComingName& operator=(const ComingName&) = delete;
+  const std::string& name() const noexcept { return name_; }
+
+ private:
+  std::mutex& mutex_;
+  std::set<std::string>& coming_;
+  std::string name_;
+};
+
 }  // namespace
 
 const std::set<std::string>& scene_extensions() {
@@ -72,7 +100,18 @@ StudioFiles::StudioFiles(std::string scene, std::string materials)
   if (!scene_.empty()) require_file(scene_);
 }
 
-std::string StudioFiles::scene_stem() const { return fs::path(scene_).stem().string(); }
+std::string StudioFiles::default_output() const {
+  if (scene_.empty()) return {};
+  return fs::path(scene_).stem().string() + (is_gltf_file(scene_) ? "-baked.glb" : ".glb");
+}
+
+std::vector<std::string> StudioFiles::bake_words(const std::string& output, const std::string& report,
+                                                 const std::vector<std::string>& more) const {
+  std::vector<std::string> words = {"papilla", "bake", scene_, "-m", materials_, "-o", output};
+  if (!report.empty()) words.insert(words.end(), {"--report", report});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 void StudioFiles::open(const std::string& scene) {
   scene_ = scene;
@@ -122,11 +161,8 @@ fs::path StudioFiles::checked(const std::string& path) const { return folders_.f
 std::string StudioFiles::receive(const std::string& name, const std::set<std::string>& extensions,
                                  const BodySource& body, const std::function<bool()>& goes_on) const {
   check_name(name, extensions);
-  std::string free = name;
-  const fs::path plain(name);
-  std::error_code error;
-  for (int i = 2; fs::exists(fs::symlink_status(free, error)); ++i)
-    free = plain.stem().string() + "-" + std::to_string(i) + plain.extension().string();
+  const ComingName coming(name, coming_mutex_, coming_);
+  const std::string& free = coming.name();
   checked(free);
   write_atomically(free, [&](std::ostream& out) {
     bool cancelled = false;

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "papilla/pipeline/studio/allowed_folders.hpp"
 #include "studio/studio_http.hpp"
@@ -26,7 +28,11 @@ class StudioFiles {
 
   const std::string& scene() const noexcept { return scene_; }
   const std::string& materials() const noexcept { return materials_; }
-  std::string scene_stem() const;
+  /// Of a bake of the scene; empty without one.
+  std::string default_output() const;
+  /// The command line of a bake. @param report  folder; empty: none. @param more  words behind.
+  std::vector<std::string> bake_words(const std::string& output, const std::string& report,
+                                      const std::vector<std::string>& more) const;
 
   /// Another scene, with materials of its own: SCENE.materials.json in the working folder.
   void open(const std::string& scene);
@@ -48,7 +54,8 @@ class StudioFiles {
   /// A path in the folders, as the page gave it: relative ones start in the working folder. @throws InvalidInput.
   std::filesystem::path checked(const std::string& path) const;
 
-  /// Takes an upload into the working folder, under its own name where that is free, else with a number behind it.
+  /// Takes an upload into the working folder, under its own name where that is free, else with a number behind it; an
+  /// upload that is under way has its name. Thread-safe.
   /// @param extensions allowed ones, in lower case, with dot. @return the path.
   /// @throws InvalidInput for names that are none, IoError.
   std::string receive(const std::string& name, const std::set<std::string>& extensions, const BodySource& body,
@@ -60,6 +67,8 @@ class StudioFiles {
   std::string scene_, materials_;
   AllowedFolders folders_;
   std::set<std::string> trusted_;  ///< Paths that the file named.
+  mutable std::mutex coming_mutex_;
+  mutable std::set<std::string> coming_;  ///< Names of uploads that are under way.
 };
 
 }  // namespace papilla::app

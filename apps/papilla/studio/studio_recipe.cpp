@@ -106,6 +106,21 @@ Json placed(const std::vector<unsigned char>& pixels, std::string& all) {
   return place;
 }
 
+Json recipe_look_json(const RecipeLook& look, std::string& all) {
+  Json json = {
+      {"width", look.width}, {"height", look.height}, {"roughness", look.roughness}, {"metallic", look.metallic}};
+  json["color"] = placed(look.color, all);
+  json["normal"] = placed(look.normal, all);
+  json["shine"] = placed(look.shine, all);
+  return json;
+}
+
+int look_side(const Json& wanted) {
+  const int side = wanted.at("side").get<int>();
+  require_look_side(side);
+  return side;
+}
+
 int picture_side(const Json& wanted) {
   const int side = wanted.at("side").get<int>();
   if (side > k_most_picture_side) throw InvalidInput("pictures of recipes have at most 256 texels a side");
@@ -135,8 +150,40 @@ Json StudioRecipe::recipe_of(const std::string& material) const {
   const auto rule = handlers_.rule(material);
   if (!rule || !looks_like_recipe(rule->recipe, handlers_.library))
     throw InvalidInput("material '" + material + "' has no recipe");
-  const ProceduralTexture texture = compile_for_look(rule->recipe, handlers_.library, handlers_.folder(), rule->time);
-  return {{"text", rule->recipe}, {"time", rule->time}, {"needs_atlas", needs_atlas(texture)}};
+  return {{"text", rule->recipe}, {"time", rule->time}};
+}
+
+bool StudioRecipe::has_atlases(const MaterialRule& rule) const {
+  try {
+    return looks_like_recipe(rule.recipe, handlers_.library) &&
+           needs_atlas(compile_for_look(rule.recipe, handlers_.library, handlers_.folder(), rule.time));
+  } catch (const InvalidInput&) {
+    return false;  // Then nothing of it is shown.
+  }
+}
+
+Json StudioRecipe::looks_on_surfaces(const Json& wanted, const MaterialRule& rule, const ProceduralTexture& tiling,
+                                     Json& answer, const ProgressCallback& progress, std::string& pixels) const {
+  const ProceduralTexture texture = compile_for_look(wanted.at("text").get<std::string>(), handlers_.library,
+                                                     handlers_.folder(), time_of(wanted), false);
+  std::vector<StudioAtlases::Laid> laid = handlers_.atlases.ask(rule.name, texture, look_side(wanted));
+  std::size_t under_way = 0;
+  Json problems = Json::array();
+  for (const StudioAtlases::Laid& one : laid) {
+    under_way += one.is_under_way ? 1 : 0;
+    if (!one.problem.empty()) problems.push_back(one.problem);
+  }
+  answer["under_way"] = under_way, answer["surface_problems"] = problems;
+  std::erase_if(laid, [](const StudioAtlases::Laid& one) { return !one.atlas; });
+  std::vector<std::shared_ptr<const RecipeAtlas>> atlases;
+  for (const StudioAtlases::Laid& one : laid) atlases.push_back(one.atlas);
+  const std::vector<RecipeLook> looks = recipe_looks(rule, texture, tiling, atlases, progress);
+  Json list = Json::array();
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    Json& one = list.emplace_back(recipe_look_json(looks[i], pixels));
+    one["part"] = laid[i].part, one["slot"] = laid[i].slot, one["use"] = laid[i].use, one["mesh"] = laid[i].name;
+  }
+  return list;
 }
 
 SharedText StudioRecipe::look(const Json& wanted) {
@@ -145,7 +192,8 @@ SharedText StudioRecipe::look(const Json& wanted) {
   const double time = time_of(wanted);
   const Places places(text);
   Json answer = {{"problem", nullptr},     {"textures", nullptr}, {"uses_time", false},
-                 {"needs_atlas", nullptr}, {"cancelled", false},  {"look", nullptr}};
+                 {"needs_atlas", nullptr}, {"cancelled", false},  {"look", nullptr},
+                 {"surfaces", nullptr},    {"under_way", 0},      {"surface_problems", Json::array()}};
   std::string pixels;
   try {
     answer["textures"] = outline_json(outline_recipe(text, handlers_.library), text, places);
@@ -153,12 +201,11 @@ SharedText StudioRecipe::look(const Json& wanted) {
     answer["uses_time"] = texture.depends_on_time();
     answer["needs_atlas"] = needs_atlas(texture);
     const MaterialRule rule = handlers_.rule(wanted.value("material", std::string())).value_or(MaterialRule{});
-    const RecipeLook look =
-        recipe_look(rule, texture, wanted.at("side").get<int>(), [&](const Progress&) { return mine == newest_; });
-    answer["look"] = {{"side", look.side}, {"roughness", look.roughness}, {"metallic", look.metallic}};
-    answer["look"]["color"] = placed(look.color, pixels);
-    answer["look"]["normal"] = placed(look.normal, pixels);
-    answer["look"]["shine"] = placed(look.shine, pixels);
+    const auto is_newest = [&](const Progress&) { return mine == newest_; };
+    if (needs_atlas(texture) || has_atlases(rule))
+      answer["surfaces"] = looks_on_surfaces(wanted, rule, texture, answer, is_newest, pixels);
+    else
+      answer["look"] = recipe_look_json(recipe_look(rule, texture, look_side(wanted), is_newest), pixels);
   } catch (const Cancelled&) {
     answer["cancelled"] = true;
   } catch (const InvalidInput& error) {

@@ -28,8 +28,7 @@ std::string short_name(const void* data, std::size_t size) {
 Json pair(Vec2 v) { return {v.x, v.y}; }
 
 /// The first material of the look; pictures have a name by which the page keeps them, and are null where they lie on
-/// the second texture coordinates, which the page of the studio does not have. So is the height of its tag, whose
-/// bytes height_bytes() has.
+/// the second texture coordinates. height_bytes() has the height of its tag.
 Json studio_look_json(const Scene& look) {
   const Material material = look.materials.empty() ? Material{} : look.materials.front();
   Json json = look_json(look, material);
@@ -42,11 +41,7 @@ Json studio_look_json(const Scene& look) {
     else
       map = nullptr;
   }
-  json["haptic"] = nullptr;
-  if (material.haptic) {
-    json["haptic"] = tag_json(*material.haptic);
-    if (material.haptic->height && material.haptic->height->tex_coord != 0) json["haptic"].erase("height");
-  }
+  json["haptic"] = material.haptic ? tag_json(*material.haptic) : Json(nullptr);
   return json;
 }
 
@@ -66,17 +61,26 @@ class Arrays {
   Json json = Json::object();
 };
 
+/// Pages have v down the rows of pictures.
+std::vector<float> uv_downwards(std::vector<float> uv) {
+  for (std::size_t i = 1; i < uv.size(); i += 2) uv[i] = 1 - uv[i];
+  return uv;
+}
+
+void add_vertices(const ShownMesh& mesh, Arrays& arrays) {
+  arrays.add("positions", mesh.positions);
+  arrays.add("normals", mesh.normals);
+  arrays.add("uv", uv_downwards(mesh.uv));
+  if (!mesh.uv1.empty()) arrays.add("uv1", uv_downwards(mesh.uv1));
+  arrays.add("indices", mesh.indices);
+}
+
 /// @param arrays get those of the surface.
 Json surface_json(const StudioSurface& surface, Arrays& arrays) {
   const ShownMesh& mesh = surface.mesh;
-  std::vector<float> uv = mesh.uv;
-  for (std::size_t i = 1; i < uv.size(); i += 2) uv[i] = 1 - uv[i];
-  arrays.add("positions", mesh.positions);
-  arrays.add("normals", mesh.normals);
-  arrays.add("uv", uv);
+  add_vertices(mesh, arrays);
   arrays.add("measured", mesh.measured);
   arrays.add("seams", mesh.seams);
-  arrays.add("indices", mesh.indices);
   Json json = {{"part", surface.part},
                {"slot", surface.slot},
                {"label", surface.label},
@@ -101,6 +105,12 @@ SharedText surface_bytes(const StudioSurface& surface) {
   Arrays arrays;
   const Json json = surface_json(surface, arrays);
   return framed(json, arrays.bytes);
+}
+
+SharedText mesh_bytes(const ShownMesh& mesh) {
+  Arrays arrays;
+  add_vertices(mesh, arrays);
+  return framed({{"arrays", arrays.take()}}, arrays.bytes);
 }
 
 SharedText level_bytes(const std::vector<ShownLevel>& levels) {

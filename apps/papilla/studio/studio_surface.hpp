@@ -17,8 +17,12 @@ std::string short_name(const std::string& text);
 
 /// A surface as the page gets it: the length of a JSON text in four bytes, least first, the text, blanks up to a
 /// multiple of four, and the arrays whose places ("at" in bytes, "count" of numbers) the text tells: positions [mm],
-/// normals, uv with v downwards, measured, seams as 32-bit floats, indices as 32-bit integers.
+/// normals, uv with v downwards, uv1 where the haptic tag lies on those, measured, seams as 32-bit floats, indices as
+/// 32-bit integers.
 SharedText surface_bytes(const StudioSurface& surface);
+
+/// Positions, normals, uv and indices likewise: {"arrays"}.
+SharedText mesh_bytes(const ShownMesh& mesh);
 
 /// Coarser levels of a surface: framed(), the text {"levels": [{"coverage", "at", "count"}, …]}, finest first, of their
 /// indices as 32-bit integers.

@@ -63,7 +63,7 @@ export class Levels {
 
   choose(shown, camera, chosen) {
     const { geometry: whole } = shown, isKnown = Boolean(shown.levels);
-    if (whole.index.count < 3 * LEAST_TRIANGLES) return;
+    if (shown.laid || whole.index.count < 3 * LEAST_TRIANGLES) return;
     shown.sphere ??= sphereOf(shown);
     let isWanted = false;
     for (const mesh of shown.meshes) {

@@ -8,6 +8,7 @@ import { Carriers } from './carriers.mjs';
 import { Decals } from './decals.mjs';
 import { colourAt } from './overlay.mjs';
 import { number } from '../colour.mjs';
+import { freeName } from './free_name.mjs';
 import { GrainTurn } from './grain_turn.mjs';
 import { PartPanel } from './part.mjs';
 import { PhotoCard } from './photo_card.mjs';
@@ -93,6 +94,7 @@ class Studio {
       this.view.pace.hold(left > 0);
       this.say(left ? T.working(left, label) : T.ready);
     });
+    this.socket.on('recipe-atlas', () => this.recipe.atlasCame());
     this.socket.on('failed', ({ label, problem }) => this.say(T.failed(label, problem), true));
     this.socket.on('problem', ({ text }) => this.say(text, true));
     this.socket.on('loading', (event) => this.progress(T.loading(event.file, event.stage, Math.round(100 * event.fraction)), event.fraction));
@@ -129,7 +131,7 @@ class Studio {
 
   take(state) {
     if (this.state && state.version < this.state.version) return;
-    const sceneChanged = state.scene_file !== this.shownFile || (state.surfaces.length > 0) !== Boolean(this.scene);
+    const sceneChanged = state.scene_number !== this.shownScene || (state.surfaces.length > 0) !== Boolean(this.scene);
     this.state = state;
     this.byKey = new Map(state.surfaces.map((s) => [this.keyOf(s), s]));
     document.body.dataset.version = state.version;
@@ -158,11 +160,11 @@ class Studio {
   }
 
   async takeScene() {
-    this.shownFile = this.state.scene_file;
+    this.shownScene = this.state.scene_number;
     try {
       this.scene = await get('scene');
     } catch (error) {
-      this.shownFile = undefined;
+      this.shownScene = undefined;
       return this.failed(error);
     }
     this.shown.clear();
@@ -328,7 +330,7 @@ class Studio {
     try {
       const bitmap = await createImageBitmap(file);
       const { file: texture } = await upload('photograph', file, (share) => this.progress(T.sending(file.name, Math.round(100 * share)), share)).promise;
-      const name = texture.replace(/\.\w+$/, ''), height = Math.round(1e3 * width * bitmap.height / bitmap.width) / 1e3, surfaces = this.slots([...this.selected]);
+      const name = freeName(texture.replace(/\.\w+$/, ''), this.state.document.materials), height = Math.round(1e3 * width * bitmap.height / bitmap.width) / 1e3, surfaces = this.slots([...this.selected]);
       const add = { kind: 'add', material: name, values: { '/texture': texture, '/size_mm': [width, height] } };
       await this.edit(surfaces.length ? [add, { kind: 'assign', surfaces, material: name }] : [add], T.did.add(name));
     } catch (error) {

@@ -7,7 +7,7 @@ import { pixelsOf } from './recipe_picture.mjs';
 const SIDE = 512, COARSE = 256, SLOW_MS = 100, REST_MS = 150, PATIENCE_MS = 500;
 
 export class RecipeAsker {
-  /** @param onAnswer({problem, textures, uses_time, needs_atlas, look}, what was asked) @param onError(error) */
+  /** @param onAnswer({problem, textures, uses_time, needs_atlas, look, surfaces, under_way, surface_problems}, what was asked) @param onError(error) */
   constructor(onAnswer, onError) { Object.assign(this, { onAnswer, onError, wanted: null, answered: null, took: 0 }); }
 
   /** @param wanted {material, text, time} */
@@ -16,6 +16,9 @@ export class RecipeAsker {
     clearTimeout(this.resting);
     this.resting = setTimeout(() => { if (!this.isFine) this.want({ ...this.wanted, side: SIDE }); }, REST_MS);
   }
+
+  /** The same once more: the server has another answer. */
+  again() { if (this.wanted) this.want({ ...this.wanted }); }
 
   get isFine() { return this.wanted.side === SIDE; }
 
@@ -48,7 +51,7 @@ export class RecipeAsker {
         const framed = parseFramed(await postBytes('recipe', wanted, { signal: this.controller.signal })), { json } = framed;
         this.took = (performance.now() - this.sentAt) * (SIDE / wanted.side) ** 2;
         await this.drawn;  // Of the look before: a page that draws slowly is not overrun.
-        for (const name of ['color', 'normal', 'shine']) if (json.look) json.look[name] = pixelsOf(json.look[name], framed);
+        for (const look of json.surfaces ?? [json.look]) for (const name of ['color', 'normal', 'shine']) if (look) look[name] = pixelsOf(look[name], framed);
         this.isInterrupted = false;
         if (json.cancelled && this.mayRepeat(wanted)) continue;
         this.answered = wanted;

@@ -3,8 +3,10 @@
 // kept in the document as one change.
 import { element } from '../dom.mjs';
 import { get, post } from './api.mjs';
+import { freeName } from './free_name.mjs';
 import { LiveLook } from './live_look.mjs';
 import { RecipeAsker } from './recipe_asker.mjs';
+import { RecipeAtlases } from './recipe_atlases.mjs';
 import { RecipeControls } from './recipe_controls.mjs';
 import { RecipeMutations } from './recipe_mutations.mjs';
 import { RecipeText } from './recipe_text.mjs';
@@ -19,6 +21,7 @@ export class RecipePanel {
   constructor(host, tab, studio) {
     Object.assign(this, { host, tab, studio, material: null, kept: null, time: 0, looks: 0, outline: null });
     this.live = new LiveLook(studio.view);
+    this.atlases = new RecipeAtlases();
     this.asker = new RecipeAsker((answer, wanted) => this.answer(answer, wanted), (error) => studio.say(error.message, true));
     const say = (text, isProblem) => studio.say(text, isProblem);
     host.append(this.start(), this.editor = element('div', { hidden: '' }));
@@ -84,9 +87,7 @@ export class RecipePanel {
   /** The text of a library's recipe as a new material, for what is selected if anything is. */
   async create() {
     await this.ready;
-    const text = this.language.recipes[this.from.value], { materials = {} } = this.studio.state.document, wanted = this.name.value.trim() || this.from.value;
-    let name = wanted;
-    for (let i = 2; name in materials; ++i) name = `${wanted} ${i}`;
+    const text = this.language.recipes[this.from.value], name = freeName(this.name.value.trim() || this.from.value, this.studio.state.document.materials);
     const surfaces = this.studio.slots([...this.studio.selected]), add = { kind: 'add', material: name, values: { '/texture': text, '/size_mm': SIZE_MM, '/show': 'picture' } };
     if (await this.studio.edit(surfaces.length ? [add, { kind: 'assign', surfaces, material: name }] : [add], T.did.add(name))) await this.open(name);
   }
@@ -101,9 +102,9 @@ export class RecipePanel {
   async open(material) {
     try {
       await this.ready;
-      const { text, time, needs_atlas: isSolid } = await get('recipe-of', { material });
+      const { text, time } = await get('recipe-of', { material });
       this.close();
-      Object.assign(this, { material, isSolid, kept: { text, time } });
+      Object.assign(this, { material, kept: { text, time } });
       this.seen = this.entry();
       this.title.textContent = material;
       this.editor.hidden = false;
@@ -118,6 +119,7 @@ export class RecipePanel {
 
   close() {
     this.live.hide();
+    this.atlases.clear();
     Object.assign(this, { material: null, outline: null });
     this.editor.hidden = true;
   }
@@ -181,8 +183,11 @@ export class RecipePanel {
         this.drawSoon();
       }
     }
-    if (answer.look) this.showLook(answer);
+    if (answer.look || answer.surfaces) this.showLook(answer);
   }
+
+  /** The server has laid out another surface of the material. */
+  atlasCame() { if (this.material !== null) this.asker.again(); }
 
   showTexture() {
     if (this.outline) this.controls.show(this.outline[this.tree.picked], this.text.value);
@@ -190,12 +195,31 @@ export class RecipePanel {
 
   get keys() { return new Set(this.studio.state.surfaces.filter((s) => s.material === this.material).map((s) => this.studio.keyOf(s))); }
 
-  showLook({ look, needs_atlas: needsAtlas }) {
-    const { keys } = this, fits = !needsAtlas && !this.isSolid;
-    this.note.textContent = !keys.size ? T.recipe.nowhere : !fits ? T.recipe.solid : look.color ? '' : T.recipe.reliefOnly;
-    if (fits && (this.isChanged || !this.isBaked)) this.live.show(keys, look);
-    else this.live.hide();
-    this.host.dataset.looks = ++this.looks;
+  async showLook(answer) {
+    try {
+      const number = ++this.looks, looks = await this.looksOf(answer);
+      if (number !== this.looks || this.material === null) return;
+      this.note.textContent = this.noteOf(answer, [...looks.values()]);
+      if (this.isChanged || !this.isBaked) this.live.show(looks);
+      else this.live.hide();
+      Object.assign(this.host.dataset, { looks: number, underWay: answer.under_way });
+    } catch (error) {
+      this.studio.say(error.message, true);
+    }
+  }
+
+  /** By the key of the surface: one tile for all, or what each has on its atlas. */
+  async looksOf({ look, surfaces }) {
+    if (!surfaces) return new Map([...this.keys].map((key) => [key, { look }]));
+    return new Map(await Promise.all(surfaces.map(async (one) => [this.studio.keyOf({ ...one, uses: [one.use] }), { look: one, geometry: await this.atlases.geometry(one.mesh) }])));
+  }
+
+  noteOf({ under_way: left, surface_problems: problems }, looks) {
+    const { size } = this.keys;
+    if (!size) return T.recipe.nowhere;
+    if (problems.length) return problems[0];
+    if (left) return T.recipe.layingOut(left, size);
+    return looks.every(({ look }) => look.color) ? '' : T.recipe.reliefOnly;
   }
 
   /** Whether the scene shows what the document has. */
@@ -243,7 +267,6 @@ export class RecipePanel {
     const { material, seen } = this, now = seen && await get('recipe-of', { material }).catch(() => null);
     if (material !== this.material || seen !== this.seen || this.isKeeping) return;
     if (!now) { this.close(); return; }
-    this.isSolid = now.needs_atlas;
     this.shown.value = JSON.parse(seen).show ?? 'auto';
     if (now.text === this.kept.text && now.time === this.kept.time) return;
     this.kept = { text: now.text, time: now.time };

@@ -11,12 +11,12 @@ function measuredColumns(pairs) {
   return columns;
 }
 
-/** @param arrays of parseSurface() */
-export function geometryOf({ positions, normals, uv, measured, indices }) {
+/** @param arrays of parseSurface(); without `measured` nothing of the uv's quality can be shown */
+export function geometryOf({ positions, normals, uv, uv1, measured = new Float32Array(0), indices }) {
   const geometry = new THREE.BufferGeometry();
   for (const [name, values, size] of [['position', positions, 3], ['normal', normals, 3], ['uv', uv, 2], ['measured', measuredColumns(measured), 3]])
     geometry.setAttribute(name, new THREE.BufferAttribute(values, size));
-  geometry.setAttribute('uv1', geometry.getAttribute('uv'));
+  geometry.setAttribute('uv1', uv1 ? new THREE.BufferAttribute(uv1, 2) : geometry.getAttribute('uv'));
   return geometry.setIndex(new THREE.BufferAttribute(indices, 1));
 }
 

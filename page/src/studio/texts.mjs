@@ -80,10 +80,10 @@ export const T = {
     keep: 'Keep', revert: 'As before', isKept: 'kept', notKept: 'not kept', shown: 'Show', shows: { auto: 'colours of several hues', picture: 'colours', relief: 'relief alone' },
     time: 'Age', layers: 'Layers', newLayer: 'Recipe of the new layer', lower: 'Lower', upper: 'Higher', remove: 'Remove', add: 'Add', parameter: 'Parameter to add',
     of: (head) => `Of ${head}`, number: (name) => `${name}, number`, removeOf: (name) => `Remove ${name}`, inText: 'in the text',
-    mutations: 'Variations', mutate: 'Vary', strength: 'strength', nothingVaries: 'The text has no number that could vary.', mutant: (n) => `Take variation ${n}`,
+    mutations: 'Variations', mutate: 'Vary', strength: 'strength', nothingVaries: 'The text has no number and no colour that could vary.', mutant: (n) => `Take variation ${n}`,
     problem: ({ line, column, reason }) => `line ${line}, column ${column}: ${reason}`,
     kinds: { type: 'type', recipe: 'recipe', parameter: 'parameter', function: 'function', variable: 'variable', colour: 'colour', word: '' },
-    nowhere: 'No part has this material yet: drag it onto one.', reliefOnly: 'Its relief is shown, in the colour of the material.', solid: 'It reads the place of the surface: the scene shows it when it is kept.',
+    nowhere: 'No part has this material yet: drag it onto one.', reliefOnly: 'Its relief is shown, in the colour of the material.', layingOut: (left, of) => `It reads the surface: ${left === 1 ? 'one' : left} of ${of} ${of === 1 ? 'surface is' : 'surfaces are'} being laid out for it …`,
   },
   more: (first, n) => n > 1 ? `${first} and ${n - 1} more` : first, scene: 'Scene in 3D', tabs: 'Panels', results: 'Status', none: 'none',
 };

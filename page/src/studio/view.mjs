@@ -116,9 +116,17 @@ export class View extends MovingCamera {
     shown.material.emissive.setRGB(...(glows ? [0.004, 0.02, 0.05] : shown.data.look.emissive));
     for (const mesh of shown.meshes) {
       mesh.material = textured ? shown.material : shown.shader;
+      mesh.geometry = textured && shown.laid ? shown.laid : shown.geometry;
       mesh.visible = !this.hidden.has(shown.key) && !this.isWorn;
     }
     for (const line of shown.lines) line.visible = this.seams && !this.hidden.has(shown.key) && !this.isWorn;
+  }
+
+  /** Shows the same triangles with other coordinates. @param geometry that has them; null: the surface's own */
+  lay(shown, geometry) {
+    if ((shown.laid ?? null) === geometry) return;
+    shown.laid = geometry;
+    this.dress(shown);
   }
 
   dressAll() {

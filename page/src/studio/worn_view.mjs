@@ -50,9 +50,9 @@ export class WornView {
 
   /** A surface of the server as Mesh of the headset. */
   meshOf({ arrays, look }, geometry) {
-    const view = this, { positions, normals, uv, indices } = arrays;
+    const view = this, { positions, normals, uv, uv1 = uv, indices } = arrays;
     const data = {
-      positions, normals, uv, uv1: uv, indices, measured: geometry.getAttribute('measured').array,
+      positions, normals, uv, uv1, indices, measured: geometry.getAttribute('measured').array,
       get coarse() { return view.share < 1 ? this.fewer ??= simplified(indices, positions, view.share) : NOTHING; },
     };
     return { material: this.numberOf(look), uv: hasCoordinates(arrays), vertices: positions.length / 3, data };

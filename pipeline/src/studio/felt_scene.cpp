@@ -29,12 +29,6 @@ double distance_to_box(const FeltSurface& placed, Vec3 point) {
   return norm(upper(upper(box.low - point, point - box.high), Vec3{}));
 }
 
-TriangleMesh mesh_of(const StudioSurface& surface, int tex_coord) {
-  TriangleMesh mesh = triangle_mesh(surface.tagged_mesh ? *surface.tagged_mesh : surface.mesh);
-  if (tex_coord == 1) std::swap(mesh.uv, mesh.uv1);
-  return mesh;
-}
-
 /// A surface's one material as a part of `scene`, with the images that its tag may name.
 std::uint32_t add_part(const StudioSurface& surface, const std::string& model, Scene& scene) {
   Material material = surface.look->materials.front();
@@ -46,7 +40,7 @@ std::uint32_t add_part(const StudioSurface& surface, const std::string& model, S
   }
   Part part;
   part.name = surface.label;
-  part.mesh = mesh_of(surface, tex_coord_of(*material.haptic).value_or(0));
+  part.mesh = triangle_mesh(surface.mesh);
   part.materials = {static_cast<std::uint32_t>(scene.materials.size())};
   // Only the transforms of textures are looked at.
   const auto textures = static_cast<std::uint32_t>(scene.textures.size());

@@ -21,9 +21,7 @@ constexpr double k_picture_relief = 1.0 / 24;  ///< Height of 1 in sides of the 
 
 RenderedTexture rendered(const ProceduralTexture& texture, int side, unsigned channels,
                          const ProgressCallback& progress) {
-  constexpr int k_least = 16, k_most = 2048;
-  if (side < k_least || side > k_most)
-    throw InvalidInput("a look of " + std::to_string(side) + " texels a side; 16 to 2048 can be shown");
+  require_look_side(side);
   RenderOptions render;
   render.width = render.height = side;
   render.channels = channels;
@@ -46,27 +44,52 @@ void cut_slopes(ColorImage& normals, double max_slope) {
   }
 }
 
-ColorImage normals_of(const MaterialRule& rule, const SurfacePicture& picture, double friction) {
+ColorImage normals_of(const MaterialRule& rule, const PaintedSurface& painted) {
+  const SurfacePicture& picture = painted.picture;
   double size[2] = {rule.size_mm[0], rule.size_mm[1]};
   for (double& mm : size)
     if (!(mm > 0)) mm = k_common_size_mm;
   const double depth = depth_mm_of(rule, size) * rule.height.scale;
-  HeightMap relief{picture.width,           picture.height,           picture.bump,
-                   size[0] / picture.width, size[1] / picture.height, true};
+  HeightMap relief{picture.width,
+                   picture.height,
+                   picture.bump,
+                   size[0] / painted.texels_per_repeat,
+                   size[1] / painted.texels_per_repeat,
+                   painted.repeats};
   for (float& h : relief.mm) h *= static_cast<float>(depth);
   ColorImage normals = normal_map(relief);
-  cut_slopes(normals, rule.height.max_slope.value_or(default_max_slope(rule.static_friction.value_or(friction))));
+  const double friction = rule.static_friction.value_or(painted.ranges.friction.mean());
+  cut_slopes(normals, rule.height.max_slope.value_or(default_max_slope(friction)));
   return normals;
+}
+
+/// @param monochrome  of the tile.
+RecipeLook look_of(const MaterialRule& rule, const PaintedSurface& painted, bool monochrome) {
+  RecipeLook look;
+  look.width = painted.picture.width, look.height = painted.picture.height;
+  look.normal = with_alpha(normals_of(rule, painted));
+  if (!shows_picture(rule, monochrome)) return look;
+  look.color = with_alpha(color_of(painted.picture));
+  const Shine shine = shine_of(painted, rule.roughness, rule.metallic);
+  look.roughness = shine.roughness, look.metallic = shine.metallic;
+  if (shine.picture) look.shine = with_alpha(*shine.picture);
+  return look;
 }
 
 }  // namespace
 
 ProceduralTexture compile_for_look(const std::string& recipe, const RecipeLibrary& library,
-                                   const std::filesystem::path& folder, double time) {
+                                   const std::filesystem::path& folder, double time, bool seamless) {
   CompileOptions options = recipe_options(folder);
-  options.seamless = true;
+  options.seamless = seamless;
   options.time = time;
   return compile_texture(recipe, library, options);
+}
+
+void require_look_side(int side) {
+  constexpr int k_least = 16, k_most = 2048;
+  if (side < k_least || side > k_most)
+    throw InvalidInput("a look of " + std::to_string(side) + " texels a side; 16 to 2048 can be shown");
 }
 
 bool needs_atlas(const ProceduralTexture& texture) { return reads_surface(texture); }
@@ -74,16 +97,35 @@ bool needs_atlas(const ProceduralTexture& texture) { return reads_surface(textur
 RecipeLook recipe_look(const MaterialRule& rule, const ProceduralTexture& texture, int side,
                        const ProgressCallback& progress) {
   const PaintedSurface painted = painted_repeat(rendered(texture, side, painted_channels(), progress));
-  RecipeLook look;
-  look.side = side;
-  look.normal = with_alpha(normals_of(rule, painted.picture, painted.ranges.friction.mean()));
-  const ColorImage color = color_of(painted.picture);
-  if (!shows_picture(rule, rule.show == "auto" && is_monochrome(color))) return look;
-  look.color = with_alpha(color);
-  const Shine shine = shine_of(painted, rule.roughness, rule.metallic);
-  look.roughness = shine.roughness, look.metallic = shine.metallic;
-  if (shine.picture) look.shine = with_alpha(*shine.picture);
-  return look;
+  return look_of(rule, painted, rule.show == "auto" && is_monochrome(color_of(painted.picture)));
+}
+
+std::vector<RecipeLook> recipe_looks(const MaterialRule& rule, const ProceduralTexture& texture,
+                                     const ProceduralTexture& tiling,
+                                     std::span<const std::shared_ptr<const RecipeAtlas>> atlases,
+                                     const ProgressCallback& progress) {
+  constexpr int k_tile_side = 64;
+  const auto tile = [&] {
+    return color_of(painted_repeat(rendered(tiling, k_tile_side, painted_channels(), progress)).picture);
+  };
+  const bool monochrome = rule.show == "auto" && is_monochrome(tile());
+  const SurfaceReading reading = reading_of(texture);
+  std::vector<RecipeLook> looks;
+  for (const std::shared_ptr<const RecipeAtlas>& atlas : atlases) {
+    const auto report = [&](double share) {
+      report_progress(progress, "look",
+                      (static_cast<double>(looks.size()) + share) / static_cast<double>(atlases.size()));
+    };
+    report(0);
+    const PaintJob job{.texture = texture,
+                       .tiling = tiling,
+                       .reading = reading,
+                       .stains = atlas->stains.get(),
+                       .share_equal = false,
+                       .progress = report};
+    looks.push_back(look_of(rule, paint_surface(*atlas->surface, job), monochrome));
+  }
+  return looks;
 }
 
 std::vector<unsigned char> recipe_picture(const ProceduralTexture& texture, int side) {

@@ -11,8 +11,8 @@
 namespace papilla {
 namespace {
 
-/// Numbers of position, normal and uv of a corner.
-using Corner = std::array<Index, 3>;
+/// Numbers of position, normal, uv and uv1 of a corner.
+using Corner = std::array<Index, 4>;
 
 Index value_of(const CornerAttribute<Vec2>& attribute, std::size_t t, std::size_t k) {
   return attribute.has_value(t) ? attribute.indices[t][k] : k_no_value;
@@ -65,7 +65,7 @@ void add_seams(const TriangleMesh& mesh, std::vector<float>& seams) {
 
 }  // namespace
 
-ShownMesh shown_mesh(const TriangleMesh& mesh, const DistortionReport& report) {
+ShownMesh shown_mesh(const TriangleMesh& mesh, const DistortionReport& report, bool has_uv1) {
   const CornerAttribute<Vec3> made = mesh.normals.empty() ? vertex_normals(mesh) : CornerAttribute<Vec3>();
   const CornerAttribute<Vec3>& normals = mesh.normals.empty() ? made : mesh.normals;
   const std::size_t corners = 3 * mesh.triangles.size();
@@ -73,7 +73,7 @@ ShownMesh shown_mesh(const TriangleMesh& mesh, const DistortionReport& report) {
   for (std::size_t i = 0; i < corners; ++i) {
     const std::size_t t = i / 3, k = i % 3;
     corner[i] = {mesh.triangles[t][k], normals.has_value(t) ? normals.indices[t][k] : k_no_value,
-                 value_of(mesh.uv, t, k)};
+                 value_of(mesh.uv, t, k), has_uv1 ? value_of(mesh.uv1, t, k) : k_no_value};
   }
   std::vector<std::size_t> order(corners);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -87,10 +87,11 @@ ShownMesh shown_mesh(const TriangleMesh& mesh, const DistortionReport& report) {
   for (std::size_t i = 0; i < corners; ++i) {
     const std::size_t c = order[i];
     if (i == 0 || corner[order[i - 1]] != corner[c]) {
-      const auto [position, normal, uv] = corner[c];
+      const auto [position, normal, uv, uv1] = corner[c];
       push(shown.positions, mesh.positions[position]);
       push(shown.normals, normal == k_no_value ? Vec3{0, 0, 1} : normals.values[normal]);
       push(shown.uv, uv == k_no_value ? Vec2{} : mesh.uv.values[uv]);
+      if (has_uv1) push(shown.uv1, uv1 == k_no_value ? Vec2{} : mesh.uv1.values[uv1]);
       around.emplace_back();
     }
     shown.indices[c] = static_cast<std::uint32_t>(around.size() - 1);
@@ -113,15 +114,20 @@ TriangleMesh triangle_mesh(const ShownMesh& shown) {
   const auto vec3_at = [](const std::vector<float>& values, std::size_t i) {
     return Vec3{double{values[3 * i]}, double{values[3 * i + 1]}, double{values[3 * i + 2]}};
   };
+  const auto vec2_at = [](const std::vector<float>& values, std::size_t i) {
+    return Vec2{double{values[2 * i]}, double{values[2 * i + 1]}};
+  };
   TriangleMesh mesh;
   for (std::size_t i = 0; 3 * i < shown.positions.size(); ++i) {
     mesh.positions.push_back(vec3_at(shown.positions, i));
     mesh.normals.values.push_back(vec3_at(shown.normals, i));
-    mesh.uv.values.push_back({double{shown.uv[2 * i]}, double{shown.uv[2 * i + 1]}});
+    mesh.uv.values.push_back(vec2_at(shown.uv, i));
+    if (!shown.uv1.empty()) mesh.uv1.values.push_back(vec2_at(shown.uv1, i));
   }
   for (std::size_t i = 0; i < shown.indices.size(); i += 3)
     mesh.triangles.push_back({shown.indices[i], shown.indices[i + 1], shown.indices[i + 2]});
   mesh.normals.indices = mesh.uv.indices = mesh.triangles;
+  if (!shown.uv1.empty()) mesh.uv1.indices = mesh.triangles;
   return mesh;
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <system_error>
 #include <utility>
 
 #include "object_textures/box_clip.hpp"
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/pipeline/studio/studio_scene.hpp"
+#include "studio/file_stamp.hpp"
 #include "studio/made_surface.hpp"
 
 namespace papilla {
@@ -37,7 +37,7 @@ std::vector<StudioDecalWish> StudioScene::decal_wishes(const Materials& rules, c
     StudioDecalWish& decal = decals.emplace_back();
     decal.number = i;
     decal.problem = places.decal_uses[i].problem;
-    decal.key = texts.at(i);
+    decal.key = texts.at(i) + " " + file_stamp(rules.decals[i].picture);
     const BoxFrame frame(rules.decals[i].box);
     for (const PlacedSurface& place : places.decals[i]) {
       const auto found = shown.find({place.node, place.slot});
@@ -52,10 +52,7 @@ std::vector<StudioDecalWish> StudioScene::decal_wishes(const Materials& rules, c
 }
 
 std::shared_ptr<const DecalPicture> StudioScene::decal_picture(const std::filesystem::path& file) const {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error).time_since_epoch().count();
-  const std::string key =
-      file.string() + "\n" + std::to_string(time) + " " + std::to_string(std::filesystem::file_size(file, error));
+  const std::string key = file.string() + "\n" + file_stamp(file);
   const std::scoped_lock lock(pictures_mutex_);
   const auto known =
       std::find_if(pictures_.begin(), pictures_.end(), [&](const auto& entry) { return entry.first == key; });

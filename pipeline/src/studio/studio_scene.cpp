@@ -19,6 +19,7 @@
 #include "papilla/pipeline/hex_colour.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/pipeline/studio/parse_materials.hpp"
+#include "studio/file_stamp.hpp"
 #include "studio/made_surface.hpp"
 
 namespace papilla {
@@ -51,27 +52,35 @@ std::string escaped(const std::string& name) {
   return pattern;
 }
 
+/// What is made of a material's files depends on this, too.
+std::string stamps_of(const MaterialRule& rule) {
+  std::string stamps;
+  const auto add = [&](const std::filesystem::path& file) {
+    if (const std::string stamp = file_stamp(file); !stamp.empty()) stamps += "\nfile " + stamp;
+  };
+  add(rule.texture), add(rule.environment);
+  for (const std::filesystem::path& image : rule.height.images) add(image);
+  for (const auto& [quantity, map] : rule.maps) add(map.picture);
+  return stamps;
+}
+
 /// A material's JSON without what its grain does not depend on.
 std::string grain_key(Json material) {
   if (material.is_object()) material.erase("unwrap"), material.erase("phase_mm"), material.erase("$comment");
   return material.dump();
 }
 
-/// The mesh on its second texture coordinates where a tag lies on those.
-std::optional<ShownMesh> tagged_mesh(const Scene& scene) {
+/// Whether the tag of the scene's one part lies on its second texture coordinates.
+bool is_felt_on_uv1(const Scene& scene) {
   const Part& part = scene.parts[0];
-  if (part.materials.empty()) return std::nullopt;
+  if (part.materials.empty()) return false;
   const auto& tag = scene.materials[part.materials[0]].haptic;
-  if (!tag || tex_coord_of(*tag) != 1) return std::nullopt;
-  TriangleMesh mesh = part.mesh;
-  mesh.uv = mesh.uv1;
-  return shown_mesh(mesh);
+  return tag && tex_coord_of(*tag) == 1;
 }
 
 /// Takes over the mesh of a scene of one part, and the look that is left.
 void take_shown(Scene scene, StudioSurface& surface) {
-  surface.mesh = shown_mesh(scene.parts[0].mesh, surface.report.distortion);
-  surface.tagged_mesh = tagged_mesh(scene);
+  surface.mesh = shown_mesh(scene.parts[0].mesh, surface.report.distortion, is_felt_on_uv1(scene));
   scene.parts.clear();
   scene.nodes.clear();
   scene.roots.clear();
@@ -92,8 +101,8 @@ std::string without(const Materials& rules, const Json& replace, const StudioWis
 
 }  // namespace
 
-StudioScene::StudioScene(Scene scene, const BakeOptions& options, bool in_place)
-    : scene_(std::move(scene)), options_(options) {
+StudioScene::StudioScene(Scene scene, const BakeOptions& options, bool in_place, std::string name)
+    : name_(std::move(name)), scene_(std::move(scene)), options_(options) {
   const std::vector<NodePlace> places = node_places(scene_);
   for (const Instance& use : instances(scene_)) uses_.push_back({use.node, use.part, use.world, places[use.node].path});
   for (const Part& part : scene_.parts) slots_.push_back(slots_of(part.mesh));
@@ -192,9 +201,13 @@ StudioPlan StudioScene::plan(const std::string& document, const std::filesystem:
           wish.label += "/" + (slot < shown.materials.size() ? skeleton.materials[shown.materials[slot]].name
                                                              : std::to_string(slot));
         if (const MaterialRule* rule = assignment.parts[part].rule_of(slot)) wish.material = rule->name;
-        wish.key = std::to_string(original) + "/" + std::to_string(slot);
-        if (!wish.material.empty()) wish.rule = materials.at(wish.material).dump();
-        wish.key += " " + wish.label + " " + wish.material + " " + wish.rule + without(plan.rules, replace, wish);
+        wish.key = name_ + " " + std::to_string(original) + "/" + std::to_string(slot);
+        if (!wish.material.empty()) {
+          wish.rule = materials.at(wish.material).dump();
+          wish.files = stamps_of(plan.rules.materials.at(wish.material));
+        }
+        wish.key +=
+            " " + wish.label + " " + wish.material + " " + wish.rule + wish.files + without(plan.rules, replace, wish);
         plan.wishes.push_back(std::move(wish));
       } else {
         plan.wishes[place->second].uses.push_back(u);
@@ -205,7 +218,9 @@ StudioPlan StudioScene::plan(const std::string& document, const std::filesystem:
   for (const Json& decal : json.value("decals", Json::array())) decals.push_back(decal.dump());
   plan.decals = decal_wishes(plan.rules, places, decals, plan.wishes);
   if (plan.rules.replace.empty()) return plan;
-  plan.carriers = carrier_wish(replace.dump(), parts, plan.wishes);
+  std::string pictures;
+  for (const CarrierRule& carrier : plan.rules.replace) pictures += " " + file_stamp(carrier.picture);
+  plan.carriers = carrier_wish(replace.dump() + pictures, parts, plan.wishes);
   plan.carriers->selected = places.carrier_uses;
   return plan;
 }
@@ -243,6 +258,7 @@ Scene StudioScene::piece(std::uint32_t number, std::uint32_t slot, const std::st
 }
 
 Grain StudioScene::grain_of(const std::string& key, const MaterialRule& rule) {
+  const std::scoped_lock lock(grains_mutex_);
   const auto known =
       std::find_if(grains_.begin(), grains_.end(), [&](const auto& entry) { return entry.first == key; });
   if (known != grains_.end()) {
@@ -265,6 +281,28 @@ StudioSurface StudioScene::as_read(std::uint32_t part, std::uint32_t slot) const
   return surface;
 }
 
+BakeResult StudioScene::bake_piece(const StudioPlan& plan, const StudioWish& wish, bool paints,
+                                   const ProgressCallback& progress) {
+  const MaterialRule& rule = plan.rules.materials.at(wish.material);
+  Materials rules;
+  rules.source = plan.rules.source;
+  rules.materials.emplace(rule.name, rule);
+  AssignRule all;
+  all.part = "*";
+  all.material = rule.name;
+  rules.assign.push_back(std::move(all));
+  GrainMaker maker(rules, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache);
+  report_progress(progress, wish.label, 0);
+  if (!rule.texture.empty()) {
+    Grain grain = grain_of(grain_key(parse_json(wish.rule, plan.rules.source)) + wish.files, rule);
+    grain.solid = grain.solid && paints;
+    maker.put(rule.name, std::move(grain));
+  }
+  report_progress(progress, wish.label, 0.5);
+  const WholeScene whole{context_, in_place_};
+  return bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
+}
+
 StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, const ProgressCallback& progress) {
   const Stopwatch clock;
   if (wish.material.empty()) {
@@ -278,22 +316,7 @@ StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, 
     surface.seconds = clock.seconds();
     return surface;
   }
-  const MaterialRule& rule = plan.rules.materials.at(wish.material);
-  Materials rules;
-  rules.source = plan.rules.source;
-  rules.materials.emplace(rule.name, rule);
-  AssignRule all;
-  all.part = "*";
-  all.material = rule.name;
-  rules.assign.push_back(std::move(all));
-  GrainMaker maker(rules, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache);
-  report_progress(progress, wish.label, 0);
-  if (!rule.texture.empty()) {
-    maker.put(rule.name, grain_of(grain_key(parse_json(wish.rule, plan.rules.source)), rule));
-  }
-  report_progress(progress, wish.label, 0.5);
-  const WholeScene whole{context_, in_place_};
-  BakeResult result = bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
+  BakeResult result = bake_piece(plan, wish, true, progress);
   StudioSurface surface;
   surface.part = wish.part, surface.slot = wish.slot;
   surface.label = wish.label;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -159,9 +160,27 @@ void copy_tile(const SurfacePicture& tile, std::pair<int, int> corner, SurfacePi
   }
 }
 
+/// The coordinates of an atlas. @param number  of the place of each tile.
+std::vector<NewUv> uv_of(const MaterialSurface& shown, const TilePlaces& places,
+                         const std::vector<std::uint32_t>& number) {
+  const SurfaceAtlas& atlas = shown.atlas;
+  std::vector<NewUv> uv;
+  for (std::size_t t = 0; t < shown.triangles.size(); ++t) {
+    const SurfaceTriangle& triangle = shown.triangles[t];
+    const AtlasChart& chart = atlas.charts[atlas.chart_of[t]];
+    const auto [x, y] = places.corner[number[chart.tile]];
+    NewUv fresh{triangle.instance, triangle.triangle, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 at = atlas.texels_per_repeat * triangle.uv[k];
+      fresh.uv[k] = {(at.x - chart.left + x) / places.width, 1 - (at.y - chart.top + y) / places.height};
+    }
+    uv.push_back(fresh);
+  }
+  return uv;
+}
+
 void paint_atlas(const MaterialSurface& shown, const PaintJob& job, PaintedSurface& out) {
   const SurfaceAtlas& atlas = shown.atlas;
-  const std::vector<SurfaceTriangle>& surface = shown.triangles;
   std::vector<SurfacePicture> painted, distinct;
   for (const AtlasTile& tile : atlas.tiles) {
     painted.push_back(paint(job, false, tile.texels, tile.sky, atlas.texels_per_repeat,
@@ -174,16 +193,7 @@ void paint_atlas(const MaterialSurface& shown, const PaintJob& job, PaintedSurfa
   const TilePlaces places = place_tiles(sizes);
   out.picture = SurfacePicture(places.width, places.height, static_cast<float>(job.friction));
   for (std::size_t k = 0; k < distinct.size(); ++k) copy_tile(distinct[k], places.corner[k], out.picture);
-  for (std::size_t t = 0; t < surface.size(); ++t) {
-    const AtlasChart& chart = atlas.charts[atlas.chart_of[t]];
-    const auto [x, y] = places.corner[number[chart.tile]];
-    NewUv fresh{surface[t].instance, surface[t].triangle, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 at = atlas.texels_per_repeat * surface[t].uv[k];
-      fresh.uv[k] = {(at.x - chart.left + x) / out.picture.width, 1 - (at.y - chart.top + y) / out.picture.height};
-    }
-    out.uv.push_back(fresh);
-  }
+  out.uv = uv_of(shown, places, number);
   out.distinct_tiles = distinct.size();
 }
 
@@ -215,6 +225,23 @@ PaintedSurface paint_surface(const MaterialSurface& shown, const PaintJob& job) 
   else
     paint_atlas(shown, job, out);
   return out;
+}
+
+std::vector<NewUv> uv_of_own_tiles(const MaterialSurface& shown) {
+  if (!shown.repeat) {
+    std::vector<std::pair<int, int>> sizes;
+    for (const AtlasTile& tile : shown.atlas.tiles) sizes.emplace_back(tile.texels.width, tile.texels.height);
+    std::vector<std::uint32_t> number(sizes.size());
+    std::iota(number.begin(), number.end(), 0U);
+    return uv_of(shown, place_tiles(sizes), number);
+  }
+  std::vector<NewUv> uv;
+  for (const SurfaceTriangle& t : shown.triangles) {
+    NewUv fresh{t.instance, t.triangle, t.uv};
+    for (Vec2& at : fresh.uv) at.y = 1 - at.y;
+    uv.push_back(fresh);
+  }
+  return uv;
 }
 
 unsigned painted_channels() noexcept { return k_maps; }

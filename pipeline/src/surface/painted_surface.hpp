@@ -68,6 +68,10 @@ struct PaintedSurface {
 /// @pre mm_per_repeat of the surface is positive. Cost: that of evaluate_texture() for every texel.
 PaintedSurface paint_surface(const MaterialSurface& shown, const PaintJob& job);
 
+/// The coordinates of the picture that paint_surface() makes without share_equal, whatever the recipe: of its atlas, or
+/// of the one repeat. @pre mm_per_repeat of the surface is positive.
+std::vector<NewUv> uv_of_own_tiles(const MaterialSurface& shown);
+
 /// A recipe's picture as one repeat of a surface; rendered with painted_channels().
 PaintedSurface painted_repeat(const RenderedTexture& rendered);
 unsigned painted_channels() noexcept;

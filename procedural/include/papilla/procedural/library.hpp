@@ -68,8 +68,12 @@ class RecipeLibrary {
 std::vector<std::string> suggest_recipes(std::string_view material, const RecipeLibrary& library);
 
 /// The recipe with its numbers changed by up to `strength` of themselves: parameters within the ranges of the table,
-/// and numbers with a decimal point in formulas. Named recipes and layers are written out and changed, too. Same seed,
-/// same recipe. @throws InvalidInput when the text is no recipe.
+/// components of vectors (of a direction by up to strength/2 of its length), and numbers with a decimal point in
+/// formulas. Colours, written out or named, change in OKLCh: all of one value by the same hue, up to 60° strength, and
+/// the same factor of chroma, 1 ± strength; each by its own lightness, up to strength/4; chroma that sRGB does not have
+/// is left out. limitlo and limithi, which must not cross, stay. Named recipes, lists of colours and layers are written
+/// out and changed, too. Same seed, same recipe. @pre strength in [0, 1]. @throws InvalidInput when the text is no
+/// recipe.
 std::string mutate_recipe(std::string_view recipe, const RecipeLibrary& library, unsigned seed, double strength);
 
 }  // namespace papilla

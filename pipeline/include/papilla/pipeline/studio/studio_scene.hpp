@@ -19,6 +19,7 @@
 #include "papilla/pipeline/materials.hpp"
 #include "papilla/pipeline/object_textures.hpp"
 #include "papilla/pipeline/studio/shown_mesh.hpp"
+#include "papilla/procedural/texture.hpp"
 
 namespace papilla {
 
@@ -39,6 +40,7 @@ struct StudioWish {
   std::string rule;                   ///< That entry as JSON.
   std::string key;                    ///< What is made of it depends on this text alone.
   std::vector<std::size_t> carriers;  ///< Into Materials::replace: those that may take triangles of it.
+  std::string files = {};             ///< Times and sizes of the files that its material names.
 };
 
 /// A decal of a document and the surfaces that it may lie on.
@@ -87,11 +89,9 @@ struct StudioPlan {
 struct StudioSurface {
   std::uint32_t part = 0, slot = 0;
   std::string label, key;
-  ShownMesh mesh;  ///< Without what carriers take.
+  ShownMesh mesh;  ///< Without what carriers take; with uv1 where the haptic tag lies on those.
   /// With that; null where they take nothing.
   std::shared_ptr<const TriangleMesh> whole;
-  /// The same with the second texture coordinates, where the haptic tag lies on those.
-  std::optional<ShownMesh> tagged_mesh;
   /// Its one material with the textures and pictures that it names, as bake_scene() makes them. Without part and node.
   std::shared_ptr<const Scene> look;
   BakedSurface report;  ///< With grain. Its meshes and numbers per triangle are left out.
@@ -127,15 +127,18 @@ struct StudioCarriers {
   std::vector<std::string> warnings;
 };
 
+struct RecipeAtlas;
+
 /// A scene whose surfaces are baked one by one while materials change: what bake_scene() makes of the whole, but for
 /// pictures that several surfaces share (recipes that read the surface get an atlas each), and decals on carriers,
 /// which are left out. Parts that a bake would find to be copies of each other count one by one.
 class StudioScene {
  public:
   /// @param options of the bake. Its sheets are turned here, once. @param in_place the file would be edited in place
-  /// (bake_way()): sheets and triangles stay.
+  /// (bake_way()): sheets and triangles stay. @param name  begins the keys of all wishes for its surfaces: those of
+  /// scenes with other names are not taken for them.
   /// @throws as turn_sheets().
-  StudioScene(Scene scene, const BakeOptions& options, bool in_place);
+  StudioScene(Scene scene, const BakeOptions& options, bool in_place, std::string name = {});
 
   const Scene& scene() const noexcept { return scene_; }
   const std::vector<StudioUse>& uses() const noexcept { return uses_; }
@@ -154,9 +157,19 @@ class StudioScene {
   StudioPlan plan(const std::string& document, const std::filesystem::path& path,
                   const std::filesystem::path& library) const;
 
-  /// bake_scene() of one surface. Grains are kept from call to call. For one thread at a time.
+  /// bake_scene() of one surface. Grains are kept from call to call, and made one after the other.
   /// @throws as bake_scene().
   StudioSurface bake(const StudioPlan& plan, const StudioWish& wish, const ProgressCallback& progress = {});
+
+  /// A surface laid out for a recipe in place of its material's own, as bake() does, but for about side x side texels
+  /// at most. May run beside bake(). Cost: that of bake() without painting, and O(texels). @return null where nothing
+  /// with uv shows it. @param texture  of the recipe, not seamless. @throws as bake_scene() and cut_surface().
+  std::shared_ptr<const RecipeAtlas> recipe_atlas(const StudioPlan& plan, const StudioWish& wish,
+                                                  const ProceduralTexture& texture, int side,
+                                                  const ProgressCallback& progress = {});
+
+  /// Of a surface as it was read. Cost: O(triangles of the part).
+  double area_mm2(std::uint32_t part, std::uint32_t slot) const;
 
   /// A decal on its surfaces, by apply_object_textures() with the vertices as they are shown, rounded to single
   /// precision. Pictures are kept from call to call, until their files change. May run beside bake().
@@ -175,6 +188,8 @@ class StudioScene {
 
  private:
   static constexpr std::size_t k_most_grains = 24, k_most_pictures = 4;
+  /// @param paints  a recipe that reads the surface; else it is laid on as any other.
+  BakeResult bake_piece(const StudioPlan& plan, const StudioWish& wish, bool paints, const ProgressCallback& progress);
   Scene piece(std::uint32_t part, std::uint32_t slot, const std::string& name) const;
   Grain grain_of(const std::string& key, const MaterialRule& rule);
   bool is_only_of_its_name(std::uint32_t part) const;
@@ -193,6 +208,7 @@ class StudioScene {
   /// Takes what carriers take from a mesh that was made for a wish.
   void take_out(const StudioPlan& plan, const StudioWish& wish, TriangleMesh& mesh, StudioSurface& surface) const;
 
+  std::string name_;
   Scene scene_;
   Scene skeleton_;  ///< The same as it was read, with a triangle for each slot of a part.
   std::vector<std::vector<std::uint32_t>> slots_;
@@ -203,7 +219,8 @@ class StudioScene {
   BakeOptions options_;
   PartContext context_;
   bool in_place_ = false;
-  bool shares_copies_ = true;                        ///< The bake does.
+  bool shares_copies_ = true;  ///< The bake does.
+  std::mutex grains_mutex_;
   std::list<std::pair<std::string, Grain>> grains_;  ///< By what they are made of; used last, first.
   mutable std::mutex pictures_mutex_;
   /// By file, time and size; used last, first.
