@@ -51,8 +51,9 @@ ColorImage normals_of(const MaterialRule& rule, const SurfacePicture& picture, d
   for (double& mm : size)
     if (!(mm > 0)) mm = k_common_size_mm;
   const double depth = depth_mm_of(rule, size) * rule.height.scale;
-  HeightMap relief{picture.width,           picture.height,           picture.bump,
-                   size[0] / picture.width, size[1] / picture.height, true};
+  HeightMap relief{
+      picture.width,           picture.height,           Values<float>(picture.bump.begin(), picture.bump.end()),
+      size[0] / picture.width, size[1] / picture.height, true};
   for (float& h : relief.mm) h *= static_cast<float>(depth);
   ColorImage normals = normal_map(relief);
   cut_slopes(normals, rule.height.max_slope.value_or(default_max_slope(rule.static_friction.value_or(friction))));
