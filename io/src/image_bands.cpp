@@ -25,10 +25,10 @@ struct ImageBands::State {
   io_detail::PictureInput input;
   int width, height, rows_at_once, stride;
   std::size_t channels;
-  int decoded = 0;             ///< Rows.
-  std::vector<float> waiting;  ///< Grey rows decoded and not yet returned by next().
-  std::vector<float> stored;   ///< Scratch: rows as the file stores them.
-  std::vector<float> blocks;   ///< Sums of the sample's current row.
+  int decoded = 0;            ///< Rows.
+  Values<float> waiting;      ///< Grey rows decoded and not yet returned by next().
+  std::vector<float> stored;  ///< Scratch: rows as the file stores them.
+  std::vector<float> blocks;  ///< Sums of the sample's current row.
   ColorImage sample;
   std::vector<float> curve;
 
@@ -109,7 +109,7 @@ void ImageBands::require_memory(std::size_t bytes_per_pixel, std::size_t pixels)
 const ColorImage& ImageBands::sample() const noexcept { return state_->sample; }
 
 GreyImage ImageBands::next(int rows) {
-  std::vector<float>& waiting = state_->waiting;
+  Values<float>& waiting = state_->waiting;
   const auto columns = static_cast<std::size_t>(state_->width);
   const int left = state_->height - state_->decoded + static_cast<int>(waiting.size() / columns);
   const int taken = std::clamp(rows, 0, left);
@@ -117,7 +117,7 @@ GreyImage ImageBands::next(int rows) {
   waiting.reserve(wanted + io_detail::pixel_count(state_->width, state_->rows_at_once));
   while (waiting.size() < wanted) state_->decode();
   GreyImage band{state_->width, taken, {}, pitch_mm(), bits(), state_->curve};
-  std::vector<float> rest(waiting.begin() + static_cast<std::ptrdiff_t>(wanted), waiting.end());
+  Values<float> rest(waiting.begin() + static_cast<std::ptrdiff_t>(wanted), waiting.end());
   waiting.resize(wanted);
   band.pixels = std::exchange(waiting, std::move(rest));
   return band;

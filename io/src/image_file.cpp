@@ -36,12 +36,12 @@ ColorImage read_rgb(PictureInput& input, std::size_t bytes_per_pixel) {
   const auto channels = static_cast<std::size_t>(input.channels());
   const std::size_t pixels = pixel_count(input.width(), input.height());
   input.require_memory((bytes_per_pixel + (channels == 3 ? 0 : channels)) * pixels);
-  ColorImage image{input.width(), input.height(), std::vector<unsigned char>(channels * pixels)};
+  ColorImage image{input.width(), input.height(), Values<unsigned char>(channels * pixels)};
   const int step = input.tile_rows() > 0 ? input.tile_rows() : image.height;
   for (int row = 0; row < image.height; row += step)
     input.read(row, std::min(step, image.height - row), image.pixels.data() + channels * pixel_count(image.width, row));
   if (channels == 3) return image;
-  std::vector<unsigned char> rgb(3 * pixels);
+  Values<unsigned char> rgb(3 * pixels);
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
   image.pixels = std::move(rgb);
   return image;

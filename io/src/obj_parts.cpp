@@ -91,9 +91,9 @@ class Renumbering {
   }
 
   template <class T>
-  std::vector<T> finish(const std::vector<T>& list) {
+  Values<T> finish(const std::vector<T>& list) {
     std::sort(used_.begin(), used_.end());
-    std::vector<T> result;
+    Values<T> result;
     result.reserve(used_.size());
     for (const Index index : used_) {
       numbers_[index - low_] = static_cast<Index>(result.size());

@@ -7,9 +7,9 @@ namespace papilla {
 namespace {
 
 /// Without alpha where all is opaque: interleaved samples of three or four channels.
-std::vector<unsigned char> samples_of(const RgbaImage& image, int channels) {
+Values<unsigned char> samples_of(const RgbaImage& image, int channels) {
   if (channels == 4) return image.pixels;
-  std::vector<unsigned char> samples;
+  Values<unsigned char> samples;
   samples.reserve(image.pixels.size() / 4 * 3);
   for (std::size_t i = 0; i < image.pixels.size(); i += 4)
     samples.insert(samples.end(), image.pixels.begin() + static_cast<std::ptrdiff_t>(i),
@@ -28,7 +28,7 @@ std::optional<EncodedImage> recoded_picture(const EncodedImage& image, PictureCo
   const RgbaImage decoded = decode_rgba_image(image.bytes, name);
   const int channels = has_alpha(decoded) ? 4 : 3;
   if (channels == 4 && !is_webp) return std::nullopt;
-  const std::vector<unsigned char> samples = samples_of(decoded, channels);
+  const Values<unsigned char> samples = samples_of(decoded, channels);
   const io_detail::PictureToStore picture{
       .width = decoded.width, .height = decoded.height, .channels = channels, .quality = quality};
   const std::vector<unsigned char> made = io_detail::pictures_plugin()

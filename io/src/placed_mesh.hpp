@@ -11,7 +11,7 @@ namespace papilla {
 struct PlacedMesh {
   std::string name;            ///< The node's, or else the part's.
   const Part* part = nullptr;  ///< Triangles and attributes other than positions and normals.
-  std::vector<Vec3> positions, normals;
+  Values<Vec3> positions, normals;
   bool mirrored = false;  ///< The transform turns the surface inside out: write triangles backwards.
 };
 

@@ -2,6 +2,7 @@
 #include "polygon_mesh.hpp"
 
 #include <array>
+#include <span>
 #include <utility>
 
 #include "polygon_triangulation.hpp"
@@ -13,12 +14,12 @@ constexpr Triangle k_no_values = {k_no_value, k_no_value, k_no_value};
 
 /// Triangles that have no value of their own take their vertices'.
 template <class T>
-CornerAttribute<T> merged(std::vector<T> of_vertices, const std::vector<T>& of_polygons,
-                          const std::vector<Triangle>& own, const std::vector<Triangle>& triangles) {
+CornerAttribute<T> merged(Values<T> of_vertices, const std::vector<T>& of_polygons, std::span<const Triangle> own,
+                          std::span<const Triangle> triangles) {
   CornerAttribute<T> attribute;
   if (of_vertices.empty() && of_polygons.empty()) return attribute;
   const auto offset = static_cast<Index>(of_vertices.size());
-  attribute.indices = triangles;
+  attribute.indices.assign(triangles.begin(), triangles.end());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Triangle values = t < own.size() ? own[t] : k_no_values;
     if (values != k_no_values)

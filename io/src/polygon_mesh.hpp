@@ -17,10 +17,10 @@ namespace papilla {
 /// the vertices'.
 class PolygonMesh {
  public:
-  std::vector<Vec3> positions;
-  std::vector<Vec3> normals;  ///< As many as positions, or none; so are uv, cad_uv and colours.
-  std::vector<Vec2> uv, cad_uv;
-  std::vector<Color> colors;
+  Values<Vec3> positions;
+  Values<Vec3> normals;  ///< As many as positions, or none; so are uv, cad_uv and colours.
+  Values<Vec2> uv, cad_uv;
+  Values<Color> colors;
 
   struct Polygon {
     std::span<const Index> corners;

@@ -21,9 +21,9 @@ using io_detail::pixel_count;
 
 /// All rows of the first `channels` channels.
 template <class T>
-std::vector<T> read_rows(PictureInput& input, int channels) {
+Values<T> read_rows(PictureInput& input, int channels) {
   const std::size_t row_values = pixel_count(input.width(), channels);
-  std::vector<T> values(row_values * static_cast<std::size_t>(input.height()));
+  Values<T> values(row_values * static_cast<std::size_t>(input.height()));
   const int step = input.tile_rows() > 0 ? input.tile_rows() : input.height();
   for (int row = 0; row < input.height(); row += step)
     input.read_channels(row, std::min(step, input.height() - row), channels,
@@ -35,8 +35,8 @@ RgbaImage read_rgba(PictureInput& input) {
   const int channels = std::min(input.stored_channels(), 4);
   const std::size_t pixels = pixel_count(input.width(), input.height());
   input.require_memory((4 + static_cast<std::size_t>(channels)) * pixels);
-  const std::vector<unsigned char> stored = read_rows<unsigned char>(input, channels);
-  RgbaImage image{input.width(), input.height(), std::vector<unsigned char>(4 * pixels)};
+  const Values<unsigned char> stored = read_rows<unsigned char>(input, channels);
+  RgbaImage image{input.width(), input.height(), Values<unsigned char>(4 * pixels)};
   const bool is_grey = channels < 3, with_alpha = channels == 2 || channels == 4;
   const auto n = static_cast<std::size_t>(channels);
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -47,7 +47,7 @@ RgbaImage read_rgba(PictureInput& input) {
 }
 
 RgbaImage opaque(const ColorImage& color) {
-  RgbaImage image{color.width, color.height, std::vector<unsigned char>(color.pixels.size() / 3 * 4, 255)};
+  RgbaImage image{color.width, color.height, Values<unsigned char>(color.pixels.size() / 3 * 4, 255)};
   for (std::size_t i = 0; i < color.pixels.size(); ++i) image.pixels[4 * (i / 3) + i % 3] = color.pixels[i];
   return image;
 }
@@ -86,8 +86,8 @@ LinearImage read_linear_image(const std::filesystem::path& path) {
   const int channels = input.channels();
   const std::size_t pixels = pixel_count(input.width(), input.height());
   input.require_memory(sizeof(float) * (3 + static_cast<std::size_t>(channels)) * pixels);
-  const std::vector<float> stored = read_rows<float>(input, channels);
-  LinearImage image{input.width(), input.height(), std::vector<float>(3 * pixels)};
+  const Values<float> stored = read_rows<float>(input, channels);
+  LinearImage image{input.width(), input.height(), Values<float>(3 * pixels)};
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const float value = stored[channels == 3 ? i : i / 3];
     if (!std::isfinite(value))

@@ -253,7 +253,7 @@ class AsciiReader {
   }
 
   /// Appends a facet. One with more than three vertices, which STL forbids, is read as a fan.
-  void read_facet(VertexWelder& welder, std::vector<Triangle>& triangles) {
+  void read_facet(VertexWelder& welder, Values<Triangle>& triangles) {
     expect("normal");
     for (int i = 0; i < 3; ++i) next();  // Some writers store NaN or words here; the winding decides the side.
     expect("outer");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "mesh_attributes.hpp"
@@ -16,7 +17,7 @@ namespace {
   throw InvalidInput(std::string(function) + ": " + std::string(what) + "[" + std::to_string(place) + "]");
 }
 
-void check_indices(const std::vector<Triangle>& triangles, std::size_t limit, std::string_view function,
+void check_indices(std::span<const Triangle> triangles, std::size_t limit, std::string_view function,
                    std::string_view what, bool may_lack) {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const Index v : triangles[t])

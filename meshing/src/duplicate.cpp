@@ -2,6 +2,7 @@
 #include "papilla/meshing/duplicate.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "check_mesh.hpp"
 #include "papilla/core/union_find.hpp"
@@ -27,7 +28,7 @@ struct Pair {
 };
 
 /// Leaves the first of every set, and the first that runs against it.
-std::vector<Pair> pair_fronts_with_backs(const std::vector<Triangle>& triangles, std::vector<std::uint8_t>& state,
+std::vector<Pair> pair_fronts_with_backs(std::span<const Triangle> triangles, std::vector<std::uint8_t>& state,
                                          DuplicateResult& result) {
   std::vector<Pair> pairs;
   state.assign(triangles.size(), k_keep);
@@ -120,7 +121,7 @@ void settle_backs(const TriangleMesh& mesh, const EdgeTable& edges, const std::v
   }
 }
 
-bool share_apex(std::span<const Index> halfedges, const std::vector<Triangle>& triangles) {
+bool share_apex(std::span<const Index> halfedges, std::span<const Triangle> triangles) {
   if (halfedges.size() == 2) return apex_of(triangles, halfedges[0]) == apex_of(triangles, halfedges[1]);
   std::vector<Index> apexes;
   for (const Index h : halfedges) apexes.push_back(apex_of(triangles, h));
@@ -132,7 +133,7 @@ bool share_apex(std::span<const Index> halfedges, const std::vector<Triangle>& t
 
 namespace detail {
 
-bool has_duplicates(const std::vector<Triangle>& triangles, const EdgeTable& edges) {
+bool has_duplicates(std::span<const Triangle> triangles, const EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (edges.halfedges(e).size() > 1 && share_apex(edges.halfedges(e), triangles)) return true;
   return false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "papilla/core/union_find.hpp"
 
@@ -34,7 +35,7 @@ constexpr std::uint64_t pack(Index high, Index low) noexcept { return std::uint6
 
 }  // namespace
 
-EdgeTable::EdgeTable(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
+EdgeTable::EdgeTable(std::span<const Triangle> triangles, std::size_t vertex_count) {
   std::vector<Index> slot(vertex_count + 1, 0);
   for (const Triangle& t : triangles)
     if (!repeats_corner(t))
@@ -73,7 +74,7 @@ std::vector<Index> EdgeTable::boundary_halfedges() const {
   return boundary;
 }
 
-std::vector<Index> opposite_halfedges(const std::vector<Triangle>& triangles, const EdgeTable& edges) {
+std::vector<Index> opposite_halfedges(std::span<const Triangle> triangles, const EdgeTable& edges) {
   std::vector<Index> opposite(3 * triangles.size(), k_none);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.halfedges(e);
@@ -84,7 +85,7 @@ std::vector<Index> opposite_halfedges(const std::vector<Triangle>& triangles, co
   return opposite;
 }
 
-std::vector<Index> opposite_within_labels(const std::vector<Triangle>& triangles, const EdgeTable& edges,
+std::vector<Index> opposite_within_labels(std::span<const Triangle> triangles, const EdgeTable& edges,
                                           std::span<const std::uint32_t> labels) {
   std::vector<Index> opposite(3 * triangles.size(), k_none);
   std::vector<std::pair<std::uint32_t, Index>> group;
@@ -113,7 +114,7 @@ UnionFind join_fans(std::span<const Index> opposite) {
   return fans;
 }
 
-VertexTriangles::VertexTriangles(const std::vector<Triangle>& mesh_triangles, std::size_t vertex_count)
+VertexTriangles::VertexTriangles(std::span<const Triangle> mesh_triangles, std::size_t vertex_count)
     : begin(vertex_count + 1, 0), triangles(3 * mesh_triangles.size()) {
   for (const Triangle& t : mesh_triangles)
     for (const Index v : t) ++begin[v];

@@ -22,7 +22,7 @@ constexpr Index previous_halfedge(Index halfedge) noexcept { return halfedge % 3
 /// Triangles that repeat a corner are left out. O(n) plus sorting each vertex's edges; deterministic.
 class EdgeTable {
  public:
-  EdgeTable(const std::vector<Triangle>& triangles, std::size_t vertex_count);
+  EdgeTable(std::span<const Triangle> triangles, std::size_t vertex_count);
 
   std::size_t size() const noexcept { return begin_.size() - 1; }
   std::span<const Index> halfedges(std::size_t edge) const noexcept {
@@ -36,26 +36,26 @@ class EdgeTable {
   std::vector<Index> begin_;
 };
 
-inline Index from_vertex(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
+inline Index from_vertex(std::span<const Triangle> triangles, Index halfedge) noexcept {
   return triangles[triangle_of(halfedge)][corner_of(halfedge)];
 }
-inline Index to_vertex(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
+inline Index to_vertex(std::span<const Triangle> triangles, Index halfedge) noexcept {
   return triangles[triangle_of(halfedge)][next_corner(corner_of(halfedge))];
 }
 /// The corner of its triangle that the half-edge does not touch.
-inline Index apex_of(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
+inline Index apex_of(std::span<const Triangle> triangles, Index halfedge) noexcept {
   return from_vertex(triangles, previous_halfedge(halfedge));
 }
 /// True when the half-edge runs from its edge's smaller to its larger vertex.
-inline bool runs_up(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
+inline bool runs_up(std::span<const Triangle> triangles, Index halfedge) noexcept {
   return from_vertex(triangles, halfedge) < to_vertex(triangles, halfedge);
 }
 
 /// The opposite half-edge of each half-edge whose edge has exactly two that run opposite ways, else k_none.
-std::vector<Index> opposite_halfedges(const std::vector<Triangle>& triangles, const EdgeTable& edges);
+std::vector<Index> opposite_halfedges(std::span<const Triangle> triangles, const EdgeTable& edges);
 
 /// The same within each label's triangles alone: edges of exactly two half-edges of one label that run opposite ways.
-std::vector<Index> opposite_within_labels(const std::vector<Triangle>& triangles, const EdgeTable& edges,
+std::vector<Index> opposite_within_labels(std::span<const Triangle> triangles, const EdgeTable& edges,
                                           std::span<const std::uint32_t> labels);
 
 /// Joins the corners of one vertex that are linked through opposite half-edges: each set is one fan of triangles
@@ -65,7 +65,7 @@ UnionFind join_fans(std::span<const Index> opposite);
 /// Triangles around each vertex, as ranges of one array.
 struct VertexTriangles {
   std::vector<Index> begin, triangles;
-  VertexTriangles(const std::vector<Triangle>& mesh_triangles, std::size_t vertex_count);
+  VertexTriangles(std::span<const Triangle> mesh_triangles, std::size_t vertex_count);
   std::span<const Index> of(Index vertex) const noexcept {
     return std::span(triangles).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
   }

@@ -19,7 +19,7 @@ std::uint64_t hash(const Vec3& p) noexcept {
 }  // namespace
 
 ExactPositions exact_positions(const TriangleMesh& mesh) {
-  const std::vector<Vec3>& positions = mesh.positions;
+  const Values<Vec3>& positions = mesh.positions;
   const std::size_t count = positions.size(), slots = std::bit_ceil(2 * count + 1);
   ExactPositions result;
   result.of_position.assign(count, k_none);

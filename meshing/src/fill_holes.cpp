@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -24,7 +25,7 @@ using namespace detail;
 constexpr Index k_several = k_none - 1;
 
 /// The boundary half-edge that leaves each vertex; k_none or k_several when there isn't exactly one.
-std::vector<Index> leaving_halfedges(const std::vector<Triangle>& triangles, std::size_t vertex_count,
+std::vector<Index> leaving_halfedges(std::span<const Triangle> triangles, std::size_t vertex_count,
                                      const std::vector<Index>& boundary) {
   std::vector<Index> leaving(vertex_count, k_none);
   for (const Index h : boundary) {
@@ -36,7 +37,7 @@ std::vector<Index> leaving_halfedges(const std::vector<Triangle>& triangles, std
 
 /// The boundary half-edges of an oriented mesh in the order of walking along them, loop by loop; loops begin with their
 /// smallest half-edge and come in that order. Loops through a vertex where several borders meet are left out.
-std::vector<std::vector<Index>> simple_boundary_loops(const std::vector<Triangle>& triangles, std::size_t vertex_count,
+std::vector<std::vector<Index>> simple_boundary_loops(std::span<const Triangle> triangles, std::size_t vertex_count,
                                                       const EdgeTable& edges) {
   std::vector<Index> boundary = edges.boundary_halfedges();
   if (boundary.empty()) return {};
@@ -87,7 +88,7 @@ Loop make_loop(const TriangleMesh& mesh, std::vector<Index> halfedges) {
 }
 
 /// A filling nowhere wider than w has at most the area w / 2 · perimeter, and no less than the polygon's vector area.
-bool may_be_slit(const std::vector<Vec3>& polygon, double width) {
+bool may_be_slit(std::span<const Vec3> polygon, double width) {
   Vec3 twice_area{};
   double perimeter = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -99,7 +100,7 @@ bool may_be_slit(const std::vector<Vec3>& polygon, double width) {
   return width > 0 && norm(twice_area) <= width * perimeter;
 }
 
-double diameter(const std::vector<Vec3>& polygon) {
+double diameter(std::span<const Vec3> polygon) {
   Bounds3 bounds;
   for (const Vec3& p : polygon) bounds.add(p);
   return bounds.diagonal();
@@ -109,7 +110,7 @@ constexpr std::uint64_t edge_key(Index a, Index b) noexcept {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
 
-double width_of(const std::vector<Triangle>& filling, const std::vector<Vec3>& polygon) {
+double width_of(std::span<const Triangle> filling, std::span<const Vec3> polygon) {
   double width = 0;
   for (const Triangle& t : filling)
     width = std::max(width, triangle_shape(polygon[t[0]], polygon[t[1]], polygon[t[2]]).altitude);
@@ -171,7 +172,7 @@ class Filler {
   /// The side of the polygon that an edge of the filling is; k_none for an inner edge.
   static Index side_of(Index a, Index b, std::size_t sides) noexcept { return (a + 1) % sides == b ? a : k_none; }
 
-  bool adds_known_edge(const std::vector<Triangle>& filling, const Loop& loop) const {
+  bool adds_known_edge(std::span<const Triangle> filling, const Loop& loop) const {
     for (const Triangle& t : filling)
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = t[k], b = t[next_corner(k)];
@@ -182,7 +183,7 @@ class Filler {
     return false;
   }
 
-  bool folds_back(const std::vector<Triangle>& filling, const Loop& loop) const {
+  bool folds_back(std::span<const Triangle> filling, const Loop& loop) const {
     double folded = 0, length = 0;
     for (const Triangle& t : filling)
       for (std::size_t k = 0; k < 3; ++k) {

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "point_tree.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::size_t k_edges_per_task = 4096;
 
-std::vector<Index> end_vertices(const std::vector<Triangle>& triangles, const std::vector<Index>& halfedges) {
+std::vector<Index> end_vertices(std::span<const Triangle> triangles, const std::vector<Index>& halfedges) {
   std::vector<Index> vertices;
   vertices.reserve(2 * halfedges.size());
   for (const Index h : halfedges) {
@@ -27,7 +28,7 @@ std::vector<Index> end_vertices(const std::vector<Triangle>& triangles, const st
 
 }  // namespace
 
-std::vector<TJunction> find_t_junctions(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+std::vector<TJunction> find_t_junctions(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                         const EdgeTable& edges, double reach, double from_ends) {
   const std::vector<Index> boundary = edges.boundary_halfedges();
   if (boundary.empty()) return {};

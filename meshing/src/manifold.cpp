@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <unordered_map>
@@ -34,11 +35,11 @@ constexpr double k_least_inward = 0.1;
 constexpr double k_clearance = 0.6;
 
 /// Of two half-edges of one edge: are their triangles front and back of a double sheet?
-bool are_front_and_back(Index a, Index b, const std::vector<Triangle>& triangles) {
+bool are_front_and_back(Index a, Index b, std::span<const Triangle> triangles) {
   return apex_of(triangles, a) == apex_of(triangles, b);
 }
 
-bool is_bad(std::span<const Index> halfedges, const std::vector<Triangle>& triangles) {
+bool is_bad(std::span<const Index> halfedges, std::span<const Triangle> triangles) {
   return halfedges.size() > 2 ||
          (halfedges.size() == 2 && (runs_up(triangles, halfedges[0]) == runs_up(triangles, halfedges[1]) ||
                                     are_front_and_back(halfedges[0], halfedges[1], triangles)));
@@ -91,7 +92,7 @@ void pair_around(const TriangleMesh& mesh, std::span<const Index> halfedges, std
 class FreePlaces {
  public:
   /// `starts`: where along() will start from, with steps of at most `step`.
-  FreePlaces(const std::vector<Vec3>& positions, const std::vector<Vec3>& starts, double step, double clearance)
+  FreePlaces(std::span<const Vec3> positions, std::span<const Vec3> starts, double step, double clearance)
       : clearance_(clearance), tree_(positions, near(positions, starts, k_most_parting_steps * step + clearance)) {}
 
   /// start + m · step for the smallest m from 1 that is clear; m = k_most_parting_steps when none is.
@@ -123,7 +124,7 @@ class FreePlaces {
   };
 
   /// A superset of the positions within `radius` of a start.
-  static std::vector<Index> near(const std::vector<Vec3>& positions, const std::vector<Vec3>& starts, double radius) {
+  static std::vector<Index> near(std::span<const Vec3> positions, std::span<const Vec3> starts, double radius) {
     std::unordered_set<Cell, CellHash> cells;
     for (const Vec3& p : starts)
       for (int i = 0; i < k_neighbours; ++i) cells.insert(cell_of(p, radius, i));
@@ -156,7 +157,7 @@ class FansAround {
     auto operator<=>(const Corner&) const = default;
   };
 
-  FansAround(const std::vector<Triangle>& triangles, std::size_t vertex_count, std::span<const Index> opposite)
+  FansAround(std::span<const Triangle> triangles, std::size_t vertex_count, std::span<const Index> opposite)
       : opposite_(opposite) {
     const std::vector<std::uint8_t> several = vertices_with_several_fans(triangles, vertex_count);
     if (several.empty()) return;
@@ -191,7 +192,7 @@ class FansAround {
   }
 
   /// Empty when there is none.
-  std::vector<std::uint8_t> vertices_with_several_fans(const std::vector<Triangle>& triangles,
+  std::vector<std::uint8_t> vertices_with_several_fans(std::span<const Triangle> triangles,
                                                        std::size_t vertex_count) const {
     std::vector<std::int32_t> unseen(vertex_count, 0);
     for (const Triangle& t : triangles)
@@ -393,7 +394,7 @@ class Splitter {
 
 namespace detail {
 
-bool has_bad_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges) {
+bool has_bad_edges(std::span<const Triangle> triangles, const EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (is_bad(edges.halfedges(e), triangles)) return true;
   return false;

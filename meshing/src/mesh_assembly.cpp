@@ -2,6 +2,7 @@
 #include "papilla/meshing/mesh_assembly.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace papilla {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 constexpr Triangle k_no_values = {k_no_value, k_no_value, k_no_value};
 
 /// The numbers that `triangles` use lie in [first, second).
-std::pair<Index, Index> used_range(const std::vector<Triangle>& indices, std::span<const Index> triangles) {
+std::pair<Index, Index> used_range(std::span<const Triangle> indices, std::span<const Index> triangles) {
   Index first = k_no_value, last = 0;
   for (const Index t : triangles)
     for (const Index i : indices[t])
@@ -22,8 +23,8 @@ std::pair<Index, Index> used_range(const std::vector<Triangle>& indices, std::sp
 
 /// Copies the values that `triangles` use, renumbered in order of first use.
 template <class T>
-void extract_values(const std::vector<T>& values, const std::vector<Triangle>& indices,
-                    std::span<const Index> triangles, std::vector<T>& out_values, std::vector<Triangle>& out_indices) {
+void extract_values(std::span<const T> values, std::span<const Triangle> indices, std::span<const Index> triangles,
+                    Values<T>& out_values, Values<Triangle>& out_indices) {
   const auto [first, last] = used_range(indices, triangles);
   std::vector<Index> number(last - first, k_no_value);
   out_values.reserve(std::min(number.size(), triangles.size()));
@@ -46,12 +47,12 @@ void extract_values(const std::vector<T>& values, const std::vector<Triangle>& i
 template <class T>
 CornerAttribute<T> extract(const CornerAttribute<T>& attribute, std::span<const Index> triangles) {
   CornerAttribute<T> out;
-  if (!attribute.empty()) extract_values(attribute.values, attribute.indices, triangles, out.values, out.indices);
+  if (!attribute.empty()) extract_values<T>(attribute.values, attribute.indices, triangles, out.values, out.indices);
   return out;
 }
 
-std::vector<std::uint32_t> extract(const std::vector<std::uint32_t>& numbers, std::span<const Index> triangles) {
-  std::vector<std::uint32_t> out;
+Values<std::uint32_t> extract(std::span<const std::uint32_t> numbers, std::span<const Index> triangles) {
+  Values<std::uint32_t> out;
   if (numbers.empty()) return out;
   out.reserve(triangles.size());
   for (const Index t : triangles) out.push_back(numbers[t]);
@@ -76,7 +77,7 @@ void append(CornerAttribute<T>& target, std::size_t target_triangles, const Corn
   }
 }
 
-void append(std::vector<std::uint32_t>& target, std::size_t target_triangles, const std::vector<std::uint32_t>& piece,
+void append(Values<std::uint32_t>& target, std::size_t target_triangles, std::span<const std::uint32_t> piece,
             std::size_t piece_triangles) {
   if (target.empty() && piece.empty()) return;
   target.resize(target_triangles, 0);
@@ -90,7 +91,7 @@ void append(std::vector<std::uint32_t>& target, std::size_t target_triangles, co
 
 TriangleMesh extract_triangles(const TriangleMesh& mesh, std::span<const Index> triangles) {
   TriangleMesh out;
-  extract_values(mesh.positions, mesh.triangles, triangles, out.positions, out.triangles);
+  extract_values<Vec3>(mesh.positions, mesh.triangles, triangles, out.positions, out.triangles);
   out.normals = extract(mesh.normals, triangles);
   out.uv = extract(mesh.uv, triangles);
   out.uv1 = extract(mesh.uv1, triangles);

@@ -2,12 +2,14 @@
 #include "mesh_attributes.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 namespace papilla::detail {
 namespace {
 
 template <class T>
-void keep_flagged(std::vector<T>& values, const std::vector<std::uint8_t>& keep) {
+void keep_flagged(Values<T>& values, const std::vector<std::uint8_t>& keep) {
   std::size_t to = 0;
   for (std::size_t from = 0; from < values.size(); ++from)
     if (keep[from]) values[to++] = values[from];
@@ -15,7 +17,7 @@ void keep_flagged(std::vector<T>& values, const std::vector<std::uint8_t>& keep)
 }
 
 template <class T>
-void drop_unused_values(std::vector<T>& values, std::vector<Triangle>& indices) {
+void drop_unused_values(Values<T>& values, Values<Triangle>& indices) {
   std::vector<Index> new_index(values.size(), k_none);
   for (const Triangle& t : indices)
     for (const Index v : t)
@@ -79,7 +81,7 @@ void drop_unused(TriangleMesh& mesh) {
 }
 
 void reverse_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& reverse) {
-  const auto reverse_corners = [&](std::vector<Triangle>& triangles) {
+  const auto reverse_corners = [&](std::span<Triangle> triangles) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
       if (reverse[t]) std::swap(triangles[t][1], triangles[t][2]);
   };
@@ -90,7 +92,7 @@ void reverse_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& reve
 
 Index split_triangle(TriangleMesh& mesh, Index triangle, std::size_t k, Index vertex, double s) {
   const std::size_t next = next_corner(k);
-  const auto split_indices = [&](std::vector<Triangle>& triangles, Index value) {
+  const auto split_indices = [&](Values<Triangle>& triangles, Index value) {
     Triangle second = triangles[triangle];
     second[k] = value;
     triangles[triangle][next] = value;

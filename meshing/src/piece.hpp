@@ -12,8 +12,8 @@ namespace papilla::detail {
 /// Connectivity is the array of opposite half-edges (h = 3 t + k), which also holds what OpenMesh refuses: several
 /// edges between the same two vertices.
 struct Piece {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
+  Values<Vec3> positions;
+  Values<Triangle> triangles;
   std::vector<Index> opposite;     ///< k_none at borders and seams.
   std::vector<Index> triangle_of;  ///< Local triangle -> the surface's.
   std::vector<Index> out;          ///< A half-edge from each vertex; the one on the border where there is one.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "point_tree.hpp"
 
+#include <span>
+
 #include "papilla/core/bounds.hpp"
 
 namespace papilla::detail {
@@ -12,7 +14,7 @@ double coordinate(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x : a
 
 }  // namespace
 
-PointTree::PointTree(const std::vector<Vec3>& positions, const std::vector<Index>& members) {
+PointTree::PointTree(std::span<const Vec3> positions, const std::vector<Index>& members) {
   if (members.empty()) return;
   members_.reserve(members.size());
   for (const Index v : members) members_.push_back({positions[v], v});

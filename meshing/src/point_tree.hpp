@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace papilla::detail {
 class PointTree {
  public:
   /// `members` are indices into `positions`.
-  PointTree(const std::vector<Vec3>& positions, const std::vector<Index>& members);
+  PointTree(std::span<const Vec3> positions, const std::vector<Index>& members);
 
   /// Calls visit(index, position) for a superset of the members within `radius` of the segment a-b.
   template <class Visit>

@@ -156,7 +156,7 @@ std::vector<Index> order_of(std::span<const std::uint32_t> numbers) {
 
 /// True when each edge is run as often one way as the other, as on a closed surface of one orientation; else only by
 /// chance. Reads the triangles once, where a table of the edges would look up every vertex.
-bool edges_cancel(const std::vector<Triangle>& all, std::span<const Index> triangles) {
+bool edges_cancel(std::span<const Triangle> all, std::span<const Index> triangles) {
   std::uint64_t sum = 0;
   for (const Index t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -303,7 +303,7 @@ class SoupRepair {
 
   /// All triangles in the order of those they come from.
   TriangleMesh put_together() {
-    const std::vector<std::uint32_t> face = std::move(mesh_.face);
+    const Values<std::uint32_t> face = std::move(mesh_.face);
     mesh_ = {};
     TriangleMesh all;
     for (auto& piece : pieces_) {

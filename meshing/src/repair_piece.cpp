@@ -45,7 +45,7 @@ class Repair {
 
   /// Every edge has two triangles that run it in opposite senses and are not each other's back.
   bool is_closed_and_consistent() {
-    const std::vector<Triangle>& triangles = all_.mesh.triangles;
+    const Values<Triangle>& triangles = all_.mesh.triangles;
     if (has_bad_edges(triangles, edges()) || has_duplicates(triangles, edges())) return false;
     for (std::size_t e = 0; e < edges().size(); ++e)
       if (edges().halfedges(e).size() != 2) return false;

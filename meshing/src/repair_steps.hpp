@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "edge_table.hpp"
 #include "papilla/meshing/degenerate.hpp"
@@ -51,9 +52,9 @@ bool fill_borders(TriangleMesh& mesh, const EdgeTable& edges, const FillHolesOpt
 
 /// What another pass would look for; see repair().
 bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& reach);
-bool has_duplicates(const std::vector<Triangle>& triangles, const EdgeTable& edges);
+bool has_duplicates(std::span<const Triangle> triangles, const EdgeTable& edges);
 bool has_degenerate(const TriangleMesh& mesh, double tolerance_mm);
-bool has_bad_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges);
+bool has_bad_edges(std::span<const Triangle> triangles, const EdgeTable& edges);
 
 /// Lengths of the whole mesh, to which repair() works on each piece of it.
 struct RepairScale {

@@ -14,7 +14,7 @@ namespace papilla::detail {
 /// Calls visit(triangles) for every set of two or more triangles with the same three vertices, each set ascending.
 /// Triangles that repeat a corner are left out. O(n) plus sorting around each vertex; deterministic.
 template <class Visit>
-void for_each_same_group(const std::vector<Triangle>& triangles, const Visit& visit) {
+void for_each_same_group(std::span<const Triangle> triangles, const Visit& visit) {
   struct Entry {
     Index middle, high, triangle;
     auto operator<=>(const Entry&) const = default;

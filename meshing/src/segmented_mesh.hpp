@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "edge_table.hpp"
@@ -11,8 +12,8 @@ namespace papilla::detail {
 struct SegmentedMesh {
   explicit SegmentedMesh(const TriangleMesh& mesh);
 
-  const std::vector<Vec3>& positions;
-  const std::vector<Triangle>& triangles;
+  std::span<const Vec3> positions;
+  std::span<const Triangle> triangles;
   EdgeTable edges;
   std::vector<Index> opposite;  ///< Per half-edge; k_none at borders.
   std::vector<Vec3> normal;     ///< Per triangle, of length one, or zero when it has no area.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "check_mesh.hpp"
 #include "edge_table.hpp"
@@ -23,7 +24,7 @@ constexpr std::uint64_t pack(Index high, Index low) noexcept { return std::uint6
 /// The mesh with one vertex per distinct position.
 struct Welded {
   std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
+  Values<Triangle> triangles;
 };
 
 Welded weld_exactly(const TriangleMesh& mesh) {
@@ -64,7 +65,7 @@ double measure_shapes(const Welded& welded, double reference, MeshStatistics& re
   return volume;
 }
 
-void count_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges, MeshStatistics& result) {
+void count_edges(std::span<const Triangle> triangles, const EdgeTable& edges, MeshStatistics& result) {
   result.edges = edges.size();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.halfedges(e);
@@ -75,7 +76,7 @@ void count_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges,
 }
 
 /// Component per triangle; triangles that repeat a corner belong to none (k_none).
-std::vector<Index> edge_components(const std::vector<Triangle>& triangles, const EdgeTable& edges, Index& count) {
+std::vector<Index> edge_components(std::span<const Triangle> triangles, const EdgeTable& edges, Index& count) {
   UnionFind sets(triangles.size());
   for (std::size_t e = 0; e < edges.size(); ++e)
     for (const Index h : edges.halfedges(e).subspan(1))

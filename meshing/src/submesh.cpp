@@ -14,7 +14,7 @@ namespace {
 using namespace detail;
 
 /// The triangles with the mesh's vertices numbered densely; returns how many there are.
-std::size_t number_densely(std::vector<Triangle>& triangles) {
+std::size_t number_densely(std::span<Triangle> triangles) {
   std::vector<Index> vertices;
   vertices.reserve(3 * triangles.size());
   for (const Triangle& t : triangles) vertices.insert(vertices.end(), t.begin(), t.end());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "traversal.hpp"
 
+#include <span>
+
 namespace papilla::detail {
 
 std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count) {
@@ -14,7 +16,7 @@ std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count
   return neighbour;
 }
 
-Traversal traverse(const std::vector<Triangle>& triangles, std::span<const Index> neighbour,
+Traversal traverse(std::span<const Triangle> triangles, std::span<const Index> neighbour,
                    std::vector<std::uint8_t> seen, std::size_t& conflicts) {
   Traversal result;
   result.order.reserve(triangles.size());

@@ -32,7 +32,7 @@ std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count
 
 /// Breadth-first through each component, turning each triangle to agree with the one it was reached from.
 /// Triangles flagged in `seen` are left out.
-Traversal traverse(const std::vector<Triangle>& triangles, std::span<const Index> neighbour,
+Traversal traverse(std::span<const Triangle> triangles, std::span<const Index> neighbour,
                    std::vector<std::uint8_t> seen, std::size_t& conflicts);
 
 }  // namespace papilla::detail

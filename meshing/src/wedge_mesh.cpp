@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "check_mesh.hpp"
 #include "edge_table.hpp"
@@ -23,14 +24,14 @@ bool same_value(const CornerAttribute<T>& attribute, Index a, Index b) {
   return i != k_no_value && j != k_no_value && attribute.values[i] == attribute.values[j];
 }
 
-bool same_label(const std::vector<std::uint32_t>& labels, Index a, Index b) {
+bool same_label(std::span<const std::uint32_t> labels, Index a, Index b) {
   return labels.empty() || labels[a / 3] == labels[b / 3];
 }
 
 /// Decides which corners of neighbouring triangles are joined.
 class SmoothEdges {
  public:
-  SmoothEdges(const TriangleMesh& mesh, const WedgeMesh& wedges, const std::vector<Triangle>& triangles,
+  SmoothEdges(const TriangleMesh& mesh, const WedgeMesh& wedges, std::span<const Triangle> triangles,
               double feature_angle_deg, bool keep_faces)
       : mesh_(mesh),
         cos_feature_(std::cos(std::min(feature_angle_deg, 180.0) * k_radians_per_degree)),

@@ -13,12 +13,12 @@ namespace papilla::detail {
 /// normals below the feature angle. So borders, seams, label borders and features are where a place has several wedges
 /// or an edge has one.
 struct WedgeMesh {
-  std::vector<Vec3> positions;  ///< The distinct ones that triangles name.
+  Values<Vec3> positions;  ///< The distinct ones that triangles name.
   std::vector<Index> position_of_wedge;
   std::vector<Index> corner_of_wedge;  ///< Any of its corners; corner k of triangle t is number 3 t + k.
   std::vector<Index> wedge_of_corner;
-  std::vector<Vec3> normal_of_wedge;  ///< Mean of its corners' normals, weighted by area; empty without normals.
-  std::vector<Index> indices;         ///< Three wedges a triangle; triangles that repeat a place are left out.
+  Values<Vec3> normal_of_wedge;  ///< Mean of its corners' normals, weighted by area; empty without normals.
+  std::vector<Index> indices;    ///< Three wedges a triangle; triangles that repeat a place are left out.
 };
 
 /// O(n) plus sorting around each vertex; deterministic. @param mesh As check_mesh() wants it.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include "check_mesh.hpp"
@@ -55,7 +56,7 @@ std::vector<double> reach_of_vertices(const TriangleMesh& mesh, const EdgeTable&
 }
 
 /// The vertex each vertex moves onto; itself when it stays.
-std::vector<Index> nearest_earlier(const std::vector<Vec3>& positions, const std::vector<double>& reach) {
+std::vector<Index> nearest_earlier(std::span<const Vec3> positions, const std::vector<double>& reach) {
   std::vector<Index> members;
   for (Index v = 0; v < reach.size(); ++v)
     if (reach[v] >= 0) members.push_back(v);
@@ -89,7 +90,7 @@ std::vector<Index> weld_targets(const TriangleMesh& mesh, const EdgeTable& edges
 
 /// Makes positions of the same number one vertex; returns how many were merged.
 std::size_t merge(TriangleMesh& mesh, const ExactPositions& exact) {
-  std::vector<Vec3> positions;
+  Values<Vec3> positions;
   positions.reserve(exact.first.size());
   for (const Index v : exact.first) positions.push_back(mesh.positions[v]);
   const std::size_t merged = mesh.positions.size() - positions.size();
@@ -115,7 +116,7 @@ std::size_t merge_equal(TriangleMesh& mesh) { return merge(mesh, exact_positions
 std::size_t merge_stored_equal(TriangleMesh& mesh, double& max_deviation_mm) {
   std::size_t merged = 0;
   for (const double unit : {1.0, k_metres_per_mm}) {
-    std::vector<Vec3> positions;
+    Values<Vec3> positions;
     positions.reserve(mesh.positions.size());
     for (const Vec3& p : mesh.positions) positions.push_back({stored(p.x, unit), stored(p.y, unit), stored(p.z, unit)});
     positions.swap(mesh.positions);

@@ -23,7 +23,7 @@ class PlacedTriangles {
 
   std::size_t size() const noexcept { return part_.mesh->triangles.size(); }
   Index vertices() const noexcept { return static_cast<Index>(part_.mesh->positions.size()); }
-  const std::vector<Triangle>& triangles() const noexcept { return part_.mesh->triangles; }
+  std::span<const Triangle> triangles() const noexcept { return part_.mesh->triangles; }
   bool is_opaque() const noexcept { return part_.opaque; }
 
   /// Whether triangles run clockwise that ran counter-clockwise.

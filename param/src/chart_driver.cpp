@@ -42,7 +42,7 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
   if (!result.failure.empty()) return result;
   result.stop = map.stop;
   result.trace = std::move(map.trace);
-  result.uv = {std::move(map.uv), chart.triangles};
+  result.uv = {adopted_values(std::move(map.uv)), chart.triangles};
   return result;
 }
 
@@ -62,7 +62,7 @@ bool unfold_instead(const ChartSurface& chart, const DriverOptions& options, Map
   }
   normalise(chart, options.up, true, uv);
   if (!map_failure(chart, uv).empty()) return false;
-  result.uv = {std::move(uv), chart.triangles};
+  result.uv = {adopted_values(std::move(uv)), chart.triangles};
   result.instead = "mapped with least distortion instead";
   return true;
 }

@@ -27,9 +27,9 @@ double seam_length(const TriangleMesh& mesh, const Adjacency& across, const std:
 /// One chart as a surface of its own: corners that meet over chart-interior edges are one vertex, so that
 /// a vertex where the chart touches itself counts once per touching fan.
 struct ChartSurface {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;  ///< In the order of the chart's triangle list.
-  std::vector<Triangle> across;     ///< Neighbour numbers within the chart, or k_no_triangle.
+  Values<Vec3> positions;
+  Values<Triangle> triangles;    ///< In the order of the chart's triangle list.
+  std::vector<Triangle> across;  ///< Neighbour numbers within the chart, or k_no_triangle.
 };
 
 /// Cuts charts out of one mesh; holds scratch memory of one entry per mesh triangle.

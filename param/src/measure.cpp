@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -37,7 +38,7 @@ struct Side {
 
 /// Numbers equal values alike, by sorting; -0 and 0 are equal.
 template <class T>
-std::vector<Index> number_equal(const std::vector<T>& values) {
+std::vector<Index> number_equal(const Values<T>& values) {
   std::vector<Index> order(values.size()), number(values.size());
   std::iota(order.begin(), order.end(), Index{0});
   oneapi::tbb::parallel_sort(order.begin(), order.end(), [&](Index a, Index b) {
@@ -146,7 +147,7 @@ double angle_error_deg(const PlanarPair& pair) {
 }
 
 /// The largest distance of a point from the first one, per axis.
-double extent_of(const std::vector<Vec3>& points) {
+double extent_of(std::span<const Vec3> points) {
   double extent = 0;
   for (const Vec3 p : points) {
     const Vec3 d = p - points.front();
@@ -155,7 +156,7 @@ double extent_of(const std::vector<Vec3>& points) {
   return extent;
 }
 
-double extent_of(const std::vector<Vec2>& points) {
+double extent_of(std::span<const Vec2> points) {
   double extent = 0;
   for (const Vec2 p : points) {
     const Vec2 d = p - points.front();

@@ -23,7 +23,7 @@ std::size_t offset(int width, int x, int y) {
 
 /// Means over the area of each pixel of the result.
 LinearImage resized(const LinearImage& image, int width, int height) {
-  LinearImage result{width, height, std::vector<float>(offset(width, 0, height))};
+  LinearImage result{width, height, Values<float>(offset(width, 0, height))};
   const double sx = static_cast<double>(image.width) / width, sy = static_cast<double>(image.height) / height;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -85,7 +85,7 @@ EnvironmentPicture encode_environment(const LinearImage& image) {
 }
 
 LinearImage decode_environment(const EnvironmentPicture& picture) {
-  LinearImage image{picture.width, picture.height, std::vector<float>(picture.rgbe.size() / 4 * 3)};
+  LinearImage image{picture.width, picture.height, Values<float>(picture.rgbe.size() / 4 * 3)};
   for (std::size_t i = 0; i < picture.rgbe.size() / 4; ++i)
     for (std::size_t c = 0; c < 3; ++c)
       image.pixels[3 * i + c] = std::ldexp(static_cast<float>(picture.rgbe[4 * i + c]), picture.rgbe[4 * i + 3] - 136);

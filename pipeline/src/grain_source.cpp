@@ -25,7 +25,7 @@ namespace {
 constexpr int k_recipe_samples = 512;
 
 /// A channel in multiples of its mean.
-QuantityMap over_mean(Quantity quantity, std::vector<float> values, double mean) {
+QuantityMap over_mean(Quantity quantity, Values<float> values, double mean) {
   for (float& v : values) v = mean > 0 ? static_cast<float>(static_cast<double>(v) / mean) : 1;
   return {quantity, std::move(values)};
 }
@@ -101,7 +101,8 @@ HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& m
   if (!std::filesystem::exists(map.picture, error) && looks_like_recipe(map.recipe, library)) {
     RenderedTexture made = render_tile(compile_recipe(rule, map.picture, map.recipe, key_of_map(quantity), library),
                                        1U << static_cast<unsigned>(Channel::bump));
-    return {made.width, made.height, std::move(made.values[Channel::bump]), 1, 1, true};
+    std::vector<float>& bump = made.values.channels[static_cast<std::size_t>(Channel::bump)];
+    return {made.width, made.height, adopted_values(std::move(bump)), 1, 1, true};
   }
   const auto place = [&](const Error& unread) {
     return "material '" + rule.name + "', " + key_of_map(quantity) + ": " + unread.what();
@@ -129,11 +130,12 @@ SourcePicture painted_source(const MaterialRule& rule, PaintedSurface painted) {
   source.stiffness = ranges.stiffness.mean(), source.damping = ranges.damping.mean();
   source.shine = shine_of(painted, rule.roughness, rule.metallic);
   source.color = color_of(picture);
-  source.grey = {picture.width, picture.height, std::move(picture.bump), 0, 32};
+  source.grey = {picture.width, picture.height, adopted_values(std::move(picture.bump)), 0, 32};
   source.maps = QuantityMaps{.width = picture.width, .height = picture.height, .periodic = painted.repeats, .maps = {}};
-  source.maps->maps = {over_mean(Quantity::stiffness, std::move(picture.stiffness), source.stiffness),
-                       over_mean(Quantity::dynamic_friction, std::move(picture.friction), *source.friction),
-                       over_mean(Quantity::damping, std::move(picture.damping), source.damping)};
+  source.maps->maps = {
+      over_mean(Quantity::stiffness, adopted_values(std::move(picture.stiffness)), source.stiffness),
+      over_mean(Quantity::dynamic_friction, adopted_values(std::move(picture.friction)), *source.friction),
+      over_mean(Quantity::damping, adopted_values(std::move(picture.damping)), source.damping)};
   return source;
 }
 

@@ -46,7 +46,7 @@ bool is_constant(const QuantityMap& map) {
 void halve(QuantityMaps& maps) {
   const int width = maps.width / 2, height = maps.height / 2;
   for (QuantityMap& map : maps.maps) {
-    std::vector<float> coarse;
+    Values<float> coarse;
     coarse.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     const auto at = [&](int x, int y) {
       return map
@@ -83,9 +83,9 @@ std::optional<MapsTag> encode_quantity_maps(QuantityMaps maps) {
     if (map.quantity == Quantity::stiffness && maps.pitch_mm_x > 0 && maps.pitch_mm_y > 0) smooth_stiffness(maps, map);
 
   EncodedMaps encoded{.png = {}, .width = maps.width, .height = maps.height, .bits = 8, .channels = {}};
-  ColorImage picture{maps.width, maps.height, std::vector<unsigned char>(3 * count_of(maps), 0)};
+  ColorImage picture{maps.width, maps.height, Values<unsigned char>(3 * count_of(maps), 0)};
   for (std::size_t c = 0; c < maps.maps.size(); ++c) {
-    const std::vector<float>& values = maps.maps[c].values;
+    const Values<float>& values = maps.maps[c].values;
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const double black = static_cast<double>(*low), range = static_cast<double>(*high) - black;
     encoded.channels[c] = MapChannel{maps.maps[c].quantity, range, black};

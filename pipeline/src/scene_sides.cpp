@@ -33,7 +33,7 @@ PartSides summary_of(const Part& part, const MeshSheets& mesh) {
 }
 
 void add_ambiguous(const Scene& scene, const PartSheets& part, std::set<PartSlot>& slots) {
-  const std::vector<std::uint32_t>& slot = scene.parts[part.part].mesh.material;
+  const Values<std::uint32_t>& slot = scene.parts[part.part].mesh.material;
   for (const SheetSide& sheet : part.sheets)
     if (sheet.is_ambiguous())
       for (const Index t : sheet.triangles) slots.emplace(part.part, slot.empty() ? 0 : slot[t]);

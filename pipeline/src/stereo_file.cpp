@@ -59,7 +59,7 @@ std::vector<GreyImage> read_linear(const std::vector<fs::path>& files, Transfer 
     GreyImage& image = photographs.back();
     if (std::none_of(image.pixels.begin(), image.pixels.end(), [](float v) { return v > 0; }))
       throw InvalidInput(file.string() + ": the photograph is black");
-    const std::vector<float> stored = image.pixels;
+    const Values<float> stored = image.pixels;
     const SamplesInMemory samples(stored, image.width, image.height);
     const TransferCurve curve = transfer_curve(transfer, image.bits, image.curve);
     if (photographs.size() == 1) decoded = curve.source;
@@ -147,7 +147,7 @@ double measure_scale(const std::vector<HeightReference>& references, const Pixel
 }
 
 GreyImage confidence_picture(const PhotometricStereoResult& stereo) {
-  return {stereo.width, stereo.height, stereo.confidence, 0, 8};
+  return {stereo.width, stereo.height, Values<float>(stereo.confidence.begin(), stereo.confidence.end()), 0, 8};
 }
 
 void list_measured_and_assumed(const StereoFiles& stereo, HeightResult& result) {

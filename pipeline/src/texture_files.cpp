@@ -42,7 +42,8 @@ ChannelFile write_channel(const RenderedTexture& texture, Channel channel, const
   if (channel == Channel::color) {
     write_color_image(folder / file, to_color_image(values, texture.width, texture.height));
   } else {
-    GreyImage image{texture.width, texture.height, values, options.size_mm / texture.width, options.bits};
+    GreyImage image{texture.width, texture.height, Values<float>(values.begin(), values.end()),
+                    options.size_mm / texture.width, options.bits};
     if (options.normalize && *high > *low) {
       const float base = *low, range = *high - *low;
       for (float& v : image.pixels) v = (v - base) / range;
@@ -97,7 +98,9 @@ std::vector<float> interleaved(const std::array<std::vector<float>, 3>& planes) 
 std::string write_normal_map(const RenderedTexture& rendered, const std::string& suffix,
                              const std::filesystem::path& folder, const TextureFileOptions& options) {
   const double pitch = options.size_mm / rendered.width;
-  HeightMap map{rendered.width, rendered.height, rendered.values[Channel::bump], pitch, pitch, options.seamless};
+  const std::vector<float>& bump = rendered.values[Channel::bump];
+  HeightMap map{rendered.width, rendered.height, Values<float>(bump.begin(), bump.end()),
+                pitch,          pitch,           options.seamless};
   for (float& h : map.mm) h *= static_cast<float>(options.depth_mm);
   std::string file = "normal" + suffix + ".png";
   write_color_image(folder / file, normal_map(map));

@@ -263,7 +263,7 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
 /// The relief that was painted: a height of 1/2 is the surface as it was.
 HeightMap relief_of(const PaintedMaterial& material, double depth_mm) {
   const SurfacePicture& picture = material.surface->picture;
-  HeightMap relief{picture.width,     picture.height,    picture.bump,
+  HeightMap relief{picture.width,     picture.height,    Values<float>(picture.bump.begin(), picture.bump.end()),
                    material.pitch_mm, material.pitch_mm, material.surface->repeats};
   for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(depth_mm);
   return relief;
@@ -288,9 +288,9 @@ void finish(PaintedMaterial& material, const std::optional<MaterialTag>& tag, co
   if (tag) {
     QuantityMaps maps{
         picture.width, picture.height, material.pitch_mm, material.pitch_mm, material.surface->repeats, {}};
-    maps.maps = {{Quantity::stiffness, std::move(picture.stiffness)},
-                 {Quantity::dynamic_friction, std::move(picture.friction)},
-                 {Quantity::damping, std::move(picture.damping)}};
+    maps.maps = {{Quantity::stiffness, adopted_values(std::move(picture.stiffness))},
+                 {Quantity::dynamic_friction, adopted_values(std::move(picture.friction))},
+                 {Quantity::damping, adopted_values(std::move(picture.damping))}};
     for (float& v : maps.maps[0].values) v *= static_cast<float>(tag->stiffness);
     for (float& v : maps.maps[2].values) v *= static_cast<float>(tag->damping);
     material.report.maps = encode_quantity_maps(std::move(maps));

@@ -244,7 +244,7 @@ HeightMap render_relief(const ProceduralTexture& texture, int width, int height,
   RenderedTexture rendered = render_texture(texture, options);
   HeightMap map{width,
                 height,
-                std::move(rendered.values.channels[static_cast<std::size_t>(Channel::bump)]),
+                adopted_values(std::move(rendered.values.channels[static_cast<std::size_t>(Channel::bump)])),
                 size_mm_x / width,
                 size_mm_y / height,
                 false};

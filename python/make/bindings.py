@@ -72,6 +72,7 @@ class Types:
         array = re.fullmatch(r"std::array<(.*), ([\w.:()]+)>", name) or re.fullmatch(r"(.*)\[(\w+)\]", name)
         if array:
             return self._many(array.group(1), "tuple[%s, ...]")
+        name = re.sub(r"^Values<", "std::vector<", name)
         template = re.fullmatch(r"std::(optional|vector|set|pair|map|variant)<(.*)>", name)
         if not template:
             return None

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -87,6 +88,13 @@ requires(RecordType<T> || BoundClass<T>) class Argument<T> {
  private:
   T* value_ = nullptr;
   std::unique_ptr<T> made_;
+};
+
+/// Arrays of numbers that a function only reads are looked at where they are.
+template <class T>
+class Argument<std::span<const T>> : public ReadRows<T> {
+ public:
+  using ReadRows<T>::ReadRows;
 };
 
 /// What a function returns. Vectors of numbers become arrays without a copy; what has an into_python(), what that

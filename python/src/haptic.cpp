@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <span>
 #include <thread>
 
 #include "fields_of_work.hpp"
@@ -29,7 +30,7 @@ struct Simulation {
 };
 
 /// Positions as a trajectory; the object of Python owns nothing else.
-Trajectory trajectory_of(const std::vector<double>& times, const std::vector<Vec3>& positions) {
+Trajectory trajectory_of(std::span<const double> times, std::span<const Vec3> positions) {
   if (times.size() != positions.size())
     throw UsageError("Trajectory: has " + std::to_string(times.size()) + " times for " +
                      std::to_string(positions.size()) + " positions");
@@ -99,7 +100,7 @@ class Tick {
       : tick_(std::make_unique<HapticTick>(surface, limits, 1 / rate_hz)) {}
 
   /// The forces at positions of consecutive ticks.
-  std::vector<Vec3> forces(const std::vector<Vec3>& positions) {
+  std::vector<Vec3> forces(std::span<const Vec3> positions) {
     std::vector<Vec3> forces(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) forces[i] = (*tick_)({.position = positions[i]});
     return forces;
@@ -139,7 +140,8 @@ void add_surface(py::module_& module) {
   type.def(
       "clearance",
       [](const ContactSurface& surface, const py::object& positions, double radius_m) {
-        const auto points = vector_of<Vec3>(positions, "ContactSurface.clearance: positions");
+        ReadRows<Vec3> rows(positions, "ContactSurface.clearance: positions");
+        const std::span<const Vec3> points = rows.get();
         std::vector<double> clearances(points.size());
         {
           const py::gil_scoped_release without_gil;
@@ -156,8 +158,8 @@ void add_trajectory(py::module_& module) {
   py::class_<Trajectory> type(module, "Trajectory",
                               "Position of the hand over time: linear between samples, constant before and after.");
   type.def(py::init([](const py::object& times, const py::object& positions) {
-             return trajectory_of(vector_of<double>(times, "Trajectory: t"),
-                                  vector_of<Vec3>(positions, "Trajectory: positions"));
+             return trajectory_of(ReadRows<double>(times, "Trajectory: t").get(),
+                                  ReadRows<Vec3>(positions, "Trajectory: positions").get());
            }),
            py::arg("t"), py::arg("positions"),
            "Times (n,) in seconds, increasing, and positions (n, 3) in metres. Raises InvalidInput naming the sample.");
@@ -199,11 +201,11 @@ void add_tick(py::module_& module) {
   type.def(
       "forces",
       [](Tick& tick, const py::object& positions) {
-        const auto points = vector_of<Vec3>(positions, "HapticTick.forces: positions");
+        ReadRows<Vec3> points(positions, "HapticTick.forces: positions");
         std::vector<Vec3> forces;
         {
           const py::gil_scoped_release without_gil;
-          forces = tick.forces(points);
+          forces = tick.forces(points.get());
         }
         return take(std::move(forces));
       },

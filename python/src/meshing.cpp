@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <span>
+
 #include "fields_of_work.hpp"
 #include "function.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
@@ -29,7 +31,7 @@ void add_repair(py::module_& module) {
                       [](TriangleMesh mesh, const WeldOptions& options) { return weld(std::move(mesh), options); });
   define<WeldOptions>(module, "weld_ladder(mesh: TriangleMesh, tolerances_mm: ArrayLike) -> NDArray[np.void]",
                       docs::weld_ladder,
-                      [](const TriangleMesh& mesh, const std::vector<double>& tolerances, const WeldOptions& options) {
+                      [](const TriangleMesh& mesh, std::span<const double> tolerances, const WeldOptions& options) {
                         return weld_ladder(mesh, tolerances, options);
                       });
   define(module, "mesh_statistics(mesh: TriangleMesh) -> MeshStatistics", docs::mesh_statistics,
@@ -51,7 +53,7 @@ void add_simplify(py::module_& module) {
                           });
   define<SimplifyOptions>(module, "simplify_ladder(mesh: TriangleMesh, tolerances_mm: ArrayLike) -> list[SimplifyStep]",
                           docs::simplify_ladder,
-                          [](const TriangleMesh& mesh, const std::vector<double>& tolerances, SimplifyOptions& options,
+                          [](const TriangleMesh& mesh, std::span<const double> tolerances, SimplifyOptions& options,
                              const ProgressCallback& progress) {
                             options.progress = progress;
                             return simplify_ladder(mesh, tolerances, options);
@@ -59,7 +61,7 @@ void add_simplify(py::module_& module) {
   define<SimplifyOptions>(module,
                           "levels_of_detail(mesh: TriangleMesh, tolerances_mm: ArrayLike) -> list[SimplifyResult]",
                           docs::levels_of_detail,
-                          [](const TriangleMesh& mesh, const std::vector<double>& tolerances, SimplifyOptions& options,
+                          [](const TriangleMesh& mesh, std::span<const double> tolerances, SimplifyOptions& options,
                              const ProgressCallback& progress) {
                             options.progress = progress;
                             return levels_of_detail(mesh, tolerances, options);

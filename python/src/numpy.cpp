@@ -63,9 +63,40 @@ py::array array_of(py::handle value, const py::dtype& dtype, const std::vector<p
     throw UsageError(place + ": needs " + py::str(static_cast<py::object>(dtype)).cast<std::string>() + ", got " +
                      py::str(static_cast<py::object>(array.dtype())).cast<std::string>());
   if (to == 'i' || to == 'u') check_range(array, dtype, place);
-  return numpy.attr("ascontiguousarray")(array.attr("astype")(dtype, py::arg("copy") = false))
-      .attr("reshape")(py::cast(std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim())))
+  // The same bits: indices are unsigned inside.
+  const bool is_same_but_signed = (to == 'i' || to == 'u') && (from == 'i' || from == 'u') &&
+                                  array.dtype().itemsize() == dtype.itemsize() &&
+                                  array.dtype().attr("isnative").cast<bool>();
+  const py::object typed =
+      is_same_but_signed ? array.attr("view")(dtype) : array.attr("astype")(dtype, py::arg("copy") = false);
+  const auto contiguous = numpy.attr("ascontiguousarray")(typed).cast<py::array>();
+  const bool is_aligned = (contiguous.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+  const py::object aligned = is_aligned ? py::object(contiguous) : py::object(contiguous.attr("copy")());
+  return aligned.attr("reshape")(py::cast(std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim())))
       .cast<py::array>();
+}
+
+bool is_lendable(const py::array& array) {
+  if (!array.writeable()) return false;
+  py::object owner = array;
+  while (owner && !owner.is_none()) {
+    if (py::detail::get_type_info(Py_TYPE(owner.ptr())) != nullptr) return false;
+    if (py::isinstance<py::array>(owner))
+      owner = py::reinterpret_borrow<py::array>(owner).base();
+    else if (PyMemoryView_Check(owner.ptr()))
+      owner = py::reinterpret_borrow<py::object>(PyMemoryView_GET_BUFFER(owner.ptr())->obj);
+    else
+      break;
+  }
+  return true;
+}
+
+std::shared_ptr<void> keeper_of(py::array array) {
+  return {array.release().ptr(), [](void* object) {
+            if (Py_IsInitialized() == 0) return;
+            const py::gil_scoped_acquire with_gil;
+            py::handle(static_cast<PyObject*>(object)).dec_ref();
+          }};
 }
 
 }  // namespace papilla::python

@@ -9,11 +9,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "errors.hpp"
+#include "papilla/core/values.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
@@ -112,30 +116,75 @@ py::array view_of_one(const T& row, py::handle base) {
 }
 
 /// An array that owns the vector, without a copy.
-template <class T>
-py::array take(std::vector<T>&& values) {
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+template <class T, class A>
+py::array take(std::vector<T, A>&& values) {
+  using Kept = std::vector<T, A>;
+  auto kept = std::make_unique<Kept>(std::move(values));
   const T* data = kept->data();
   const std::size_t count = kept->size();
-  const py::capsule owner(kept.get(), [](void* pointer) { delete static_cast<std::vector<T>*>(pointer); });
+  const py::capsule owner(kept.get(), [](void* pointer) { delete static_cast<Kept*>(pointer); });
   static_cast<void>(kept.release());
   return view_of(data, count, owner);
 }
 
-/// An array of this type and of `shape`, of which -1 stands for any length. Lists become arrays; numbers are converted
-/// where they keep their value. @throws UsageError naming `place`.
+/// An array of this type and of `shape`, of which -1 stands for any length: contiguous, aligned, and the given one
+/// itself where that is so already. Lists become arrays; numbers are converted where they keep their value.
+/// @throws UsageError naming `place`.
 py::array array_of(py::handle value, const py::dtype& dtype, const std::vector<py::ssize_t>& shape,
                    const std::string& place);
 
+/// One value a row.
 template <class T>
-std::vector<T> vector_of(py::handle value, const std::string& place) {
+py::array rows_of(py::handle value, const std::string& place) {
   auto shape = shape_of<T>();
   shape.insert(shape.begin(), -1);
-  const py::array array = array_of(value, dtype_of<T>(), shape, place);
-  std::vector<T> values(static_cast<std::size_t>(array.shape(0)));
-  if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), array.data(), values.size() * sizeof(T));
+  return array_of(value, dtype_of<T>(), shape, place);
+}
+
+/// Whether a struct may look into the memory of an array of array_of(): it may be written to and is not that of another
+/// struct, as these are values of their own.
+bool is_lendable(const py::array& array);
+
+/// Holds the array as long as C++ looks into it; from any thread. What is left when Python ends goes with the process.
+std::shared_ptr<void> keeper_of(py::array array);
+
+/// The `count` values of an array of array_of(), looked at in place where that is lendable, else copied.
+template <class T>
+Values<T> values_in(const py::array& array, std::size_t count) {
+  if (is_lendable(array))
+    return borrowed_values(keeper_of(array), static_cast<T*>(const_cast<py::array&>(array).mutable_data()), count);
+  Values<T> values(count);
+  if (count > 0) std::memcpy(static_cast<void*>(values.data()), array.data(), count * sizeof(T));
   return values;
 }
+
+template <class T>
+void read_rows(py::handle value, Values<T>& values, const std::string& place) {
+  const py::array array = rows_of<T>(value, place);
+  values = values_in<T>(array, static_cast<std::size_t>(array.shape(0)));
+}
+
+/// A plain vector has memory of its own.
+template <class T>
+void read_rows(py::handle value, std::vector<T>& values, const std::string& place) {
+  const py::array array = rows_of<T>(value, place);
+  values.resize(static_cast<std::size_t>(array.shape(0)));
+  if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), array.data(), values.size() * sizeof(T));
+}
+
+/// An array that is only read, looked at in place.
+template <class T>
+class ReadRows {
+ public:
+  ReadRows(py::handle value, const std::string& place)
+      : array_(rows_of<T>(value, place)),
+        rows_(static_cast<const T*>(array_.data()), static_cast<std::size_t>(array_.shape(0))) {}
+  std::span<const T>& get() { return rows_; }
+
+ private:
+  py::array array_;
+  std::span<const T> rows_;
+};
 
 template <Row T>
 void copy_row(py::handle value, T& row, const std::string& place) {

@@ -12,7 +12,7 @@
 namespace papilla::python {
 namespace {
 
-TriangleMesh mesh_of(std::vector<Vec3>&& positions, std::vector<Triangle>&& triangles) {
+TriangleMesh mesh_of(Values<Vec3>&& positions, Values<Triangle>&& triangles) {
   TriangleMesh mesh;
   mesh.positions = std::move(positions);
   mesh.triangles = std::move(triangles);
@@ -23,9 +23,9 @@ void add_measures(py::module_& module) {
   define<MeasureOptions>(
       module, "distortion(V: ArrayLike, F: ArrayLike, uv: ArrayLike | CornerVec2) -> DistortionReport",
       docs::measure_distortion,
-      [](std::vector<Vec3> positions, std::vector<Triangle> triangles, UvInput& uv, const MeasureOptions& options) {
-        const TriangleMesh mesh = mesh_of(std::move(positions), std::move(triangles));
-        return measure_distortion(mesh, uv.on(mesh), options);
+      [](Values<Vec3>& positions, Values<Triangle>& triangles, UvInput& uv, const MeasureOptions& options) {
+        TriangleMesh mesh = mesh_of(std::move(positions), std::move(triangles));
+        return measure_distortion(mesh, uv.seen_on(mesh), options);
       });
   define<MeasureOptions>(module, "measure_distortion(mesh: TriangleMesh, uv: CornerVec2) -> DistortionReport",
                          docs::measure_distortion,
@@ -87,11 +87,12 @@ constexpr char k_parameterize_doc[] =
 void add_jobs(py::module_& module) {
   static const std::string k_doc = k_parameterize_doc + std::string(docs::flatten_part);
   define<MethodOptions>(module, "parameterize(V: ArrayLike, F: ArrayLike) -> FlattenedPart", k_doc.c_str(),
-                        [](std::vector<Vec3> positions, std::vector<Triangle> triangles, MethodOptions& options,
+                        [](Values<Vec3>& positions, const Values<Triangle>& triangles, MethodOptions& options,
                            const ProgressCallback& progress) {
                           options.progress = progress;
+                          // Welding gives positions a new array and numbers the triangles anew in theirs.
                           const TriangleMesh mesh =
-                              weld_equal(mesh_of(std::move(positions), std::move(triangles))).mesh;
+                              weld_equal(mesh_of(std::move(positions), Values<Triangle>(triangles))).mesh;
                           return flatten_part(mesh, {}, options);
                         });
   define<MethodOptions>(module, "flatten_part(mesh: TriangleMesh, context: PartContext) -> FlattenedPart",

@@ -44,9 +44,7 @@ void fill(Image& image, py::handle given, py::ssize_t channels, const char* name
   } else {
     image.width = width, image.height = height;
   }
-  auto& samples = samples_of(image);
-  samples.resize(static_cast<std::size_t>(array.size()));
-  if (!samples.empty()) std::memcpy(samples.data(), array.data(), samples.size() * sizeof(Sample<Image>));
+  samples_of(image) = values_in<Sample<Image>>(array, static_cast<std::size_t>(array.size()));
 }
 
 /// Samples never move: the picture's size is fixed, so that buffers stay good as long as the picture lives.

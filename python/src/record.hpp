@@ -86,8 +86,8 @@ template <class T>
 struct ContainerTraits {
   static constexpr bool k_is_vector = false, k_is_map = false, k_is_optional = false;
 };
-template <class T>
-struct ContainerTraits<std::vector<T>> {
+template <class T, class A>
+struct ContainerTraits<std::vector<T, A>> {
   static constexpr bool k_is_vector = true, k_is_map = false, k_is_optional = false;
 };
 template <class K, class T>
@@ -241,7 +241,8 @@ void from_python(T& value, py::handle given, const std::string& place) {
   } else if constexpr (RecordType<T>) {
     record_from(value, given, place);
   } else if constexpr (NumberVector<T>) {
-    T values = vector_of<typename T::value_type>(given, place);
+    T values;
+    read_rows(given, values, place);
     retire(value);
     value = std::move(values);
   } else if constexpr (StructuredVector<T>) {

@@ -30,17 +30,19 @@ void add_corner_attributes(py::module_& module) {
 }
 
 void add_scenes(py::module_& module) {
-  define(module, "mesh(V: ArrayLike, F: ArrayLike, uv: ArrayLike | CornerVec2 | None = None) -> TriangleMesh",
-         "A mesh of arrays: positions V (n, 3) in millimetres, triangles F (m, 3) counter-clockwise seen from outside, "
-         "and texture coordinates (n, 2) per position or (m, 3, 2) per corner. The arrays are copied once; the mesh's "
-         "own arrays are looked at in place from then on.",
-         [](std::vector<Vec3> positions, std::vector<Triangle> triangles, UvInput& uv) {
-           TriangleMesh mesh;
-           mesh.positions = std::move(positions);
-           mesh.triangles = std::move(triangles);
-           mesh.uv = uv.on(mesh);
-           return mesh;
-         });
+  define(
+      module, "mesh(V: ArrayLike, F: ArrayLike, uv: ArrayLike | CornerVec2 | None = None) -> TriangleMesh",
+      "A mesh of arrays: positions V (n, 3) in millimetres, triangles F (m, 3) counter-clockwise seen from outside, "
+      "and texture coordinates (n, 2) per position or (m, 3, 2) per corner. Arrays of float64 and int32 that are "
+      "contiguous and may be written to become the mesh's own without a copy: changes show on both sides. Others are "
+      "converted.",
+      [](Values<Vec3>& positions, Values<Triangle>& triangles, UvInput& uv) {
+        TriangleMesh mesh;
+        mesh.positions = std::move(positions);
+        mesh.triangles = std::move(triangles);
+        mesh.uv = uv.on(mesh);
+        return mesh;
+      });
   define<ReadOptions>(module, "read_scene(path: str | os.PathLike[str]) -> Scene", docs::read_scene,
                       [](const std::filesystem::path& path, const ReadOptions& options,
                          const ProgressCallback& progress) { return read_scene(path, options, progress); });

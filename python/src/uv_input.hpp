@@ -19,12 +19,10 @@ class UvInput {
     if (array.attr("ndim").cast<int>() == 3) {
       kind_ = Kind::corners;
       const py::array corners = array_of(array, dtype_of<double>(), {-1, 3, 2}, place);
-      values_.resize(3 * static_cast<std::size_t>(corners.shape(0)));
-      if (!values_.empty())
-        std::memcpy(static_cast<void*>(values_.data()), corners.data(), values_.size() * sizeof(Vec2));
+      values_ = values_in<Vec2>(corners, 3 * static_cast<std::size_t>(corners.shape(0)));
     } else {
       kind_ = Kind::positions;
-      values_ = vector_of<Vec2>(array, place);
+      read_rows(array, values_, place);
     }
   }
 
@@ -45,6 +43,18 @@ class UvInput {
     return uv;
   }
 
+  /// on() for as long as the mesh and what was given exist: looks into them.
+  const CornerAttribute<Vec2>& seen_on(TriangleMesh& mesh) {
+    if (kind_ == Kind::indexed) return *indexed_;
+    if (kind_ == Kind::positions) {
+      check_length(mesh.positions.size(), "positions");
+      seen_ = {std::move(values_), borrowed_values<Triangle>({}, mesh.triangles.data(), mesh.triangles.size())};
+    } else {
+      seen_ = on(mesh);
+    }
+    return seen_;
+  }
+
  private:
   enum class Kind { none, indexed, positions, corners };
 
@@ -57,7 +67,8 @@ class UvInput {
   Kind kind_ = Kind::none;
   std::string place_;
   const CornerAttribute<Vec2>* indexed_ = nullptr;
-  std::vector<Vec2> values_;
+  Values<Vec2> values_;
+  CornerAttribute<Vec2> seen_;
 };
 
 template <>

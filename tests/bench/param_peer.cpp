@@ -23,7 +23,7 @@ void write_off(const fs::path& file, const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
 }
 
-std::optional<PeerMap> read_result(const fs::path& file, std::vector<Triangle> indices, std::size_t values) {
+std::optional<PeerMap> read_result(const fs::path& file, Values<Triangle> indices, std::size_t values) {
   std::ifstream in(file);
   PeerMap map;
   if (!(in >> map.cpu_seconds >> map.peak_mib)) return {};
@@ -34,7 +34,7 @@ std::optional<PeerMap> read_result(const fs::path& file, std::vector<Triangle> i
   return map;
 }
 
-std::optional<PeerMap> run_peer(const std::string& method, const TriangleMesh& mesh, std::vector<Triangle> indices,
+std::optional<PeerMap> run_peer(const std::string& method, const TriangleMesh& mesh, Values<Triangle> indices,
                                 std::size_t values) {
   const char* program = std::getenv("PAPILLA_PARAM_PEER");
   if (!program) return {};
@@ -58,7 +58,7 @@ std::optional<PeerMap> peer_map(const std::string& method, const TriangleMesh& m
 }
 
 std::optional<PeerMap> peer_atlas(const std::string& method, const TriangleMesh& mesh) {
-  std::vector<Triangle> corners;
+  Values<Triangle> corners;
   for (Index t = 0; t < mesh.triangles.size(); ++t) corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   return run_peer(method, mesh, std::move(corners), 3 * mesh.triangles.size());
 }

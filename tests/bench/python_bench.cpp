@@ -18,7 +18,7 @@ using namespace papilla;
 namespace py = pybind11;
 
 template <class Number, class Row>
-py::array array_of(const std::vector<Row>& rows) {
+py::array array_of(const Values<Row>& rows) {
   constexpr std::size_t k_columns = sizeof(Row) / sizeof(Number);
   return py::array_t<Number>({rows.size(), k_columns}, reinterpret_cast<const Number*>(rows.data()));
 }

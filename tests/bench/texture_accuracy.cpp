@@ -12,6 +12,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -304,7 +305,7 @@ constexpr ShadingMethod k_shading_methods[] = {{"variational", shape_from_shadin
                                                {"tsai-shah", shape_from_shading_tsai_shah}};
 
 GreyImage uniform(int width, int height, float grey) {
-  return {width, height, std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), grey),
+  return {width, height, Values<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), grey),
           0, 32};
 }
 
@@ -354,7 +355,7 @@ std::string dimension_or_reason(const BestDimension& best) {
 }
 
 /// Correlation of two pictures of the same size.
-double correlation(const std::vector<float>& a, const std::vector<float>& b) {
+double correlation(std::span<const float> a, std::span<const float> b) {
   double mean_a = 0, mean_b = 0, ab = 0, aa = 0, bb = 0;
   const auto count = static_cast<double>(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) {

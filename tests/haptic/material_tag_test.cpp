@@ -46,7 +46,7 @@ MaterialTag full_tag() {
 }
 
 TEST(HeightTag, IsTheMapInMetres) {
-  const HeightMap relief{20, 10, std::vector<float>(200), 0.5, 0.25, true};
+  const HeightMap relief{20, 10, Values<float>(200), 0.5, 0.25, true};
   const std::byte png[] = {std::byte{'a'}, std::byte{'b'}, std::byte{'c'}};
   EncodedRelief encoded{.png = png, .scale_mm = 0.5, .offset_mm = -0.25, .rms_mm = 0.125};
   const HeightTag tag = make_height_tag(relief, encoded);

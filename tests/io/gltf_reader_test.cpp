@@ -309,7 +309,7 @@ TEST_F(GltfReader, MixedPrimitivesFillMissingAttributes) {
   EXPECT_EQ(part.mesh.uv.indices.size(), 2U);
   EXPECT_EQ(part.mesh.normals.values[part.mesh.normals.indices[0][0]], (Vec3{1, 0, 0}));
   EXPECT_EQ(part.mesh.normals.values[part.mesh.normals.indices[1][0]], (Vec3{0, 0, 1})) << "flat shading";
-  EXPECT_EQ(part.mesh.material, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(part.mesh.material, (Values<std::uint32_t>{0, 1}));
   EXPECT_EQ(scene.materials.at(part.materials.at(1)).name, "default");
 }
 

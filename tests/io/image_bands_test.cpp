@@ -48,7 +48,7 @@ TEST(ImageBands, BandsTogetherAreThePicture) {
       ASSERT_EQ(bands.height(), whole.height);
       EXPECT_EQ(bands.bits(), whole.bits);
       EXPECT_EQ(bands.pitch_mm(), whole.pitch_mm);
-      std::vector<float> pixels;
+      Values<float> pixels;
       for (GreyImage band = bands.next(rows); band.height > 0; band = bands.next(rows)) {
         EXPECT_LE(band.height, rows);
         pixels.insert(pixels.end(), band.pixels.begin(), band.pixels.end());

@@ -71,12 +71,12 @@ TEST(ImageFile, ColourComesBack) {
   EXPECT_EQ(read_color_image(folder / "b.png").pixels, image.pixels);
   EXPECT_EQ(encode_png(image), encode_png(image));
   EXPECT_EQ(read_color_image(folder.write("g.png", text_of(test::k_grey8_png))).pixels,
-            (std::vector<unsigned char>{1, 1, 1, 255, 255, 255}));
+            (Values<unsigned char>{1, 1, 1, 255, 255, 255}));
 }
 
 TEST(ImageFile, GreyAndColourOfOneDecodingAreThoseOfTwo) {
   const TemporaryFolder folder;
-  ColorImage image{1500, 3, std::vector<unsigned char>(3 * 1500 * 3)};
+  ColorImage image{1500, 3, Values<unsigned char>(3 * 1500 * 3)};
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<unsigned char>(i * 37 % 256);
   write_color_image(folder / "a.png", image);
   write_grey_image(folder / "b.png", read_grey_image(folder / "a.png"), 16);

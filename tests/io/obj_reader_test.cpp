@@ -36,7 +36,7 @@ class ObjReader : public testing::Test {
 TEST_F(ObjReader, PolygonsAndNegativeIndices) {
   const Scene scene = read(k_square + "f 1 2 3 4\nf -4 -3 -2\n");
   const TriangleMesh& mesh = scene.parts.at(0).mesh;
-  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+  EXPECT_EQ(mesh.triangles, (Values<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
   EXPECT_EQ(mesh.positions[2], (Vec3{1, 1, 0}));
   EXPECT_EQ(scene.up, UpAxis::y);
 }
@@ -46,16 +46,16 @@ TEST_F(ObjReader, AttributesAreIndexedByThemselves) {
       read(k_square + "vt 0.25 0.5\nvt 1\nvt 0 0 0\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\nf 1//1 3//1 4//1\nf 1/3 2/2 3/1\n");
   const TriangleMesh& mesh = scene.parts.at(0).mesh;
   const Triangle none = {k_no_value, k_no_value, k_no_value};
-  EXPECT_EQ(mesh.uv.values, (std::vector<Vec2>{{0.25, 0.5}, {1, 0}, {0, 0}}));
-  EXPECT_EQ(mesh.uv.indices, (std::vector<Triangle>{{0, 1, 2}, none, {2, 1, 0}}));
-  EXPECT_EQ(mesh.normals.values, (std::vector<Vec3>{{0, 0, 1}}));
-  EXPECT_EQ(mesh.normals.indices, (std::vector<Triangle>{{0, 0, 0}, {0, 0, 0}, none}));
+  EXPECT_EQ(mesh.uv.values, (Values<Vec2>{{0.25, 0.5}, {1, 0}, {0, 0}}));
+  EXPECT_EQ(mesh.uv.indices, (Values<Triangle>{{0, 1, 2}, none, {2, 1, 0}}));
+  EXPECT_EQ(mesh.normals.values, (Values<Vec3>{{0, 0, 1}}));
+  EXPECT_EQ(mesh.normals.indices, (Values<Triangle>{{0, 0, 0}, {0, 0, 0}, none}));
 }
 
 TEST_F(ObjReader, CornersThatLackWhatTheirFaceHasAreNeutral) {
   const TriangleMesh mesh = read(k_square + "vt 1 1\nf 1/1 2 3/1\n").parts.at(0).mesh;
-  EXPECT_EQ(mesh.uv.values, (std::vector<Vec2>{{1, 1}, {0, 0}}));
-  EXPECT_EQ(mesh.uv.indices, (std::vector<Triangle>{{0, 1, 0}}));
+  EXPECT_EQ(mesh.uv.values, (Values<Vec2>{{1, 1}, {0, 0}}));
+  EXPECT_EQ(mesh.uv.indices, (Values<Triangle>{{0, 1, 0}}));
 }
 
 TEST_F(ObjReader, ObjectsBecomePartsAndGroupsFaceNumbers) {
@@ -66,7 +66,7 @@ TEST_F(ObjReader, ObjectsBecomePartsAndGroupsFaceNumbers) {
   EXPECT_EQ(scene.parts[1].name, "ünïcode");
   ASSERT_EQ(scene.parts[0].mesh.face.size(), 3U);
   EXPECT_NE(scene.parts[0].mesh.face[0], scene.parts[0].mesh.face[1]);
-  EXPECT_EQ(scene.parts[1].mesh.positions, (std::vector<Vec3>{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(scene.parts[1].mesh.positions, (Values<Vec3>{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   EXPECT_EQ(instances(scene).size(), 2U);
 }
 
@@ -138,7 +138,7 @@ TEST_F(ObjReader, MaterialsAndTextures) {
   EXPECT_FALSE(pbr.base_color_texture);
   EXPECT_EQ(scene.warnings.size(), 1U);
   EXPECT_EQ(scene.losses.size(), 1U);
-  EXPECT_EQ(scene.parts.at(0).mesh.material, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(scene.parts.at(0).mesh.material, (Values<std::uint32_t>{0, 1}));
 }
 
 TEST_F(ObjReader, MtlErrorsNameTheLine) {

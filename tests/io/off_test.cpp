@@ -45,7 +45,7 @@ TEST_F(Off, ColoursOfFacesInBothForms) {
   const Scene scene =
       read("OFF\n4 4 0\n" + k_corners + "3 0 1 2 255 0 0\n3 0 2 3 0.0 0.0 1.0 0.5\n3 0 1 2\n3 0 1 2 7\n");
   const auto& colors = scene.parts.at(0).mesh.colors;
-  EXPECT_EQ(colors.values, (std::vector<Color>{{1, 0, 0, 1}, {0, 0, 1, 0.5F}}));
+  EXPECT_EQ(colors.values, (Values<Color>{{1, 0, 0, 1}, {0, 0, 1, 0.5F}}));
   EXPECT_EQ(colors.indices[1], (Triangle{1, 1, 1}));
   EXPECT_FALSE(colors.has_value(2));
   EXPECT_EQ(scene.losses.size(), 1U) << "the number of a colour map";
@@ -55,9 +55,9 @@ TEST_F(Off, AttributesOfVertices) {
   const TriangleMesh m = mesh(
       "STCNOFF\n3 1 0\n0 0 0  0 0 2  255 0 0  0.25 0.5\n1 0 0  0 0 1  0 255 0  1 0\n0 1 0  0 0 1  0 0 255  0 1\n3 0 1 "
       "2\n");
-  EXPECT_EQ(m.normals.values, (std::vector<Vec3>(3, Vec3{0, 0, 1})));
-  EXPECT_EQ(m.colors.values, (std::vector<Color>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}));
-  EXPECT_EQ(m.uv.values, (std::vector<Vec2>{{0.25, 0.5}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(m.normals.values, (Values<Vec3>(3, Vec3{0, 0, 1})));
+  EXPECT_EQ(m.colors.values, (Values<Color>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}));
+  EXPECT_EQ(m.uv.values, (Values<Vec2>{{0.25, 0.5}, {1, 0}, {0, 1}}));
   EXPECT_EQ(m.uv.indices, m.triangles);
 }
 
@@ -67,8 +67,8 @@ TEST_F(Off, Binary) {
     for (const double x : {p.x, p.y, p.z, 0.0, 1.0, 0.0, 1.0}) bytes += big_endian(static_cast<float>(x));
   bytes += big_endian(3U) + big_endian(2U) + big_endian(0U) + big_endian(1U) + big_endian(0U);
   const TriangleMesh m = mesh(bytes);
-  EXPECT_EQ(m.positions, (std::vector<Vec3>{{0, 0, 0}, {1.5, 0, 0}, {0, -2, 0}}));
-  EXPECT_EQ(m.triangles, (std::vector<Triangle>{{2, 0, 1}}));
+  EXPECT_EQ(m.positions, (Values<Vec3>{{0, 0, 0}, {1.5, 0, 0}, {0, -2, 0}}));
+  EXPECT_EQ(m.triangles, (Values<Triangle>{{2, 0, 1}}));
   EXPECT_EQ(m.colors.values[1], (Color{0, 1, 0, 1}));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_NE(refusal(bytes.substr(0, length)), "") << length;

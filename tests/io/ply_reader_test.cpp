@@ -51,7 +51,7 @@ TEST_F(PlyReader, PolygonsInText) {
   const Scene scene = read(header("ascii", k_vertices + k_faces) + k_corners + "4 0 1 2 3\n", inches);
   ASSERT_EQ(scene.parts.size(), 1U);
   EXPECT_EQ(scene.parts[0].name, "a");
-  EXPECT_EQ(scene.parts[0].mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(scene.parts[0].mesh.triangles, (Values<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(scene.parts[0].mesh.positions[2], (Vec3{25.4, 25.4, 0}));
   EXPECT_TRUE(scene.losses.empty() && scene.warnings.empty());
 }
@@ -74,8 +74,8 @@ TEST_F(PlyReader, AllTypesInBothByteOrders) {
     for (const std::uint32_t corner : {2U, 0U, 1U}) bytes += bytes_of(corner, big);
     const Scene scene = read(bytes);
     const TriangleMesh& m = scene.parts.at(0).mesh;
-    EXPECT_EQ(m.positions, (std::vector<Vec3>{{0.1, -2, 0}, {-7, 32767, 4294967295.0}, {1e9, 0, 5}}));
-    EXPECT_EQ(m.triangles, (std::vector<Triangle>{{2, 0, 1}}));
+    EXPECT_EQ(m.positions, (Values<Vec3>{{0.1, -2, 0}, {-7, 32767, 4294967295.0}, {1e9, 0, 5}}));
+    EXPECT_EQ(m.triangles, (Values<Triangle>{{2, 0, 1}}));
     EXPECT_EQ(m.colors.values.at(0), (Color{1, 0, 1, 1}));
     EXPECT_EQ(scene.losses.size(), 2U) << "flag and spare";
   }
@@ -89,9 +89,9 @@ TEST_F(PlyReader, NormalsAndTextureCoordinatesOfVertices) {
                                  "float ny\nproperty float nz\nproperty float " +
                                  u + "\n" + k_faces) +
              "0 0 0 0 0 0 2 5\n0 1 0 0 0 0 2 6\n0.5 0 1 0 0 0 2 7\n3 0 1 2\n");
-    EXPECT_EQ(m.uv.values, (std::vector<Vec2>{{5, 0}, {6, 0}, {7, 0.5}}));
+    EXPECT_EQ(m.uv.values, (Values<Vec2>{{5, 0}, {6, 0}, {7, 0.5}}));
     EXPECT_EQ(m.uv.indices, m.triangles);
-    EXPECT_EQ(m.normals.values, (std::vector<Vec3>(3, Vec3{0, 0, 1})));
+    EXPECT_EQ(m.normals.values, (Values<Vec3>(3, Vec3{0, 0, 1})));
   }
 }
 
@@ -104,11 +104,11 @@ TEST_F(PlyReader, TextureCoordinatesColoursAndPicturesOfFaces) {
                                "uchar blue\n") +
            k_corners + "4 0 1 2 3 8 0 0 1 0 1 1 0 1 1 255 0 0\n3 0 1 2 0 0 0 255 0\n");
   const TriangleMesh& m = scene.parts.at(0).mesh;
-  EXPECT_EQ(m.uv.indices, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {k_no_value, k_no_value, k_no_value}}));
-  EXPECT_EQ(m.uv.values, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-  EXPECT_EQ(m.colors.values, (std::vector<Color>{{1, 0, 0, 1}, {0, 1, 0, 1}}));
+  EXPECT_EQ(m.uv.indices, (Values<Triangle>{{0, 1, 2}, {0, 2, 3}, {k_no_value, k_no_value, k_no_value}}));
+  EXPECT_EQ(m.uv.values, (Values<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(m.colors.values, (Values<Color>{{1, 0, 0, 1}, {0, 1, 0, 1}}));
   EXPECT_EQ(m.colors.indices[2], (Triangle{1, 1, 1}));
-  EXPECT_EQ(m.material, (std::vector<std::uint32_t>{1, 1, 0}));
+  EXPECT_EQ(m.material, (Values<std::uint32_t>{1, 1, 0}));
   ASSERT_EQ(scene.materials.size(), 2U);
   EXPECT_FALSE(scene.materials[0].base_color_texture);
   EXPECT_TRUE(scene.materials[1].base_color_texture);
@@ -136,7 +136,7 @@ TEST_F(PlyReader, FacesMayStandBeforeTheVertices) {
   const Scene scene =
       read(header("ascii", k_faces + "element edge 1\nproperty int a\n" + k_vertices + "element x 2\n") +
            "3 0 1 2\n7\n" + k_corners);
-  EXPECT_EQ(scene.parts.at(0).mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(scene.parts.at(0).mesh.triangles, (Values<Triangle>{{0, 1, 2}}));
   EXPECT_EQ(scene.losses.size(), 2U) << "edge and x";
 }
 
@@ -152,7 +152,7 @@ TEST_F(PlyReader, LineEndsOfAllSystems) {
 TEST_F(PlyReader, AByteThatLooksLikeALineEndIsANumber) {
   std::string bytes =
       header("binary_little_endian", "element vertex 1\nproperty uchar x\nproperty uchar y\nproperty uchar z\n");
-  EXPECT_EQ(mesh(bytes + "\n\r\n").positions, (std::vector<Vec3>{{10, 13, 10}}));
+  EXPECT_EQ(mesh(bytes + "\n\r\n").positions, (Values<Vec3>{{10, 13, 10}}));
 }
 
 TEST_F(PlyReader, WhatIsNotFiniteOrNotThere) {

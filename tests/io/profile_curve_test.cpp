@@ -113,7 +113,7 @@ TEST(ProfileCurve, ComesWithThePicture) {
 
 TEST(ProfileCurve, IsWrittenWithAGreyPicture) {
   const TemporaryFolder folder;
-  GreyImage image{8, 8, std::vector<float>(64, 0.5F)};
+  GreyImage image{8, 8, Values<float>(64, 0.5F)};
   write_grey_image(folder / "none.png", image, 8);
   EXPECT_TRUE(read_grey_image(folder / "none.png").curve.empty());
   for (int i = 0; i <= 1024; ++i) image.curve.push_back(static_cast<float>(std::pow(i / 1024.0, 1.8)));

@@ -51,8 +51,8 @@ TEST_F(StlReader, BinaryMergesEqualPositions) {
   ASSERT_EQ(scene.parts.size(), 1U);
   EXPECT_EQ(scene.parts[0].name, "a");
   const TriangleMesh& mesh = scene.parts[0].mesh;
-  EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
-  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.positions, (Values<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (Values<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(scene.up, UpAxis::z);
 }
 
@@ -182,7 +182,7 @@ TEST_F(StlReader, FacetsOfMoreThanThreeVertices) {
   const Scene scene = read(
       "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 1 1 0\nvertex 0 1 "
       "0\nendloop\nendfacet\nendsolid");
-  EXPECT_EQ(scene.parts[0].mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(scene.parts[0].mesh.triangles, (Values<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(scene.warnings.size(), 1U);
 }
 

@@ -25,7 +25,7 @@ TEST(MeshAssembly, ExtractsTrianglesWithTheirAttributes) {
   EXPECT_EQ(piece.positions.size(), 3U);
   EXPECT_EQ(piece.corner(0, 2), (Vec3{0, 1, 0}));
   EXPECT_EQ(piece.uv.values[piece.uv.indices[0][1]], (Vec2{1, 1}));
-  EXPECT_EQ(piece.material, (std::vector<std::uint32_t>{6}));
+  EXPECT_EQ(piece.material, (Values<std::uint32_t>{6}));
   EXPECT_TRUE(piece.normals.empty());
 }
 
@@ -50,7 +50,7 @@ TEST(MeshAssembly, FillsAttributesThatOnePieceLacks) {
   ASSERT_EQ(joined.uv.indices.size(), 4U);
   EXPECT_FALSE(joined.uv.has_value(0));
   EXPECT_TRUE(joined.uv.has_value(3));
-  EXPECT_EQ(joined.material, (std::vector<std::uint32_t>{0, 0, 5, 6}));
+  EXPECT_EQ(joined.material, (Values<std::uint32_t>{0, 0, 5, 6}));
   TriangleMesh reversed = square();
   append_mesh(reversed, plain);
   ASSERT_EQ(reversed.uv.indices.size(), 4U);

@@ -215,7 +215,7 @@ TEST(SheetSides, TrianglesThatRunAgainstTheirSheetAreTurned) {
 
 TEST(SheetSides, ClosedSurfacesAndDoubleSheetsAreLeftAlone) {
   TriangleMesh sheet = test::plane(10, 10, 2, 2);
-  const std::vector<Triangle> front = sheet.triangles;
+  const Values<Triangle> front = sheet.triangles;
   for (const Triangle& t : front) sheet.triangles.push_back({t[0], t[2], t[1]});
   sheet.uv = {};
   TriangleMesh touching = test::cube(10);  // Two cubes that share an edge, which has four triangles.

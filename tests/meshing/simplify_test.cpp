@@ -178,7 +178,7 @@ double border_length(const TriangleMesh& mesh, const Label& label) {
 TEST(Simplify, MaterialAndFaceBordersStayWhereTheyAre) {
   for (const bool material : {true, false}) {
     TriangleMesh plane = test::plane(10, 10, 20, 20);
-    std::vector<std::uint32_t>& labels = material ? plane.material : plane.face;
+    Values<std::uint32_t>& labels = material ? plane.material : plane.face;
     std::array<double, 2> area{};
     const auto label_area = [](const TriangleMesh& mesh, const std::vector<std::uint32_t>& of, std::uint32_t which) {
       double sum = 0;

@@ -331,7 +331,7 @@ TEST_F(BakeTest, MapsAsUnwrapDoes) {
   ASSERT_EQ(baked.surfaces.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(baked.surfaces[i].mesh.triangles, unwrapped.scene.parts[i].mesh.triangles) << i;
-    const std::vector<Vec2>&written = baked.surfaces[i].mesh.uv.values,
+    const Values<Vec2>&written = baked.surfaces[i].mesh.uv.values,
           &exact = unwrapped.scene.parts[i].mesh.uv.values;
     ASSERT_EQ(written.size(), exact.size()) << i;
     for (std::size_t v = 0; v < exact.size(); ++v) {  // Repeats in single precision.

@@ -35,7 +35,7 @@ TEST(EnvironmentPicture, KeepsValuesOfAnySizeWithinAStep) {
   const LinearImage back = decode_environment(encode_environment(image));
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_NEAR(double{back.pixels[i]}, double{image.pixels[i]}, (i < 3 ? 3000.0 : 1.0) / 256);
-  EXPECT_EQ(decode_environment(encode_environment({1, 1, {0, 0, 0}})).pixels, (std::vector<float>{0, 0, 0}));
+  EXPECT_EQ(decode_environment(encode_environment({1, 1, {0, 0, 0}})).pixels, (Values<float>{0, 0, 0}));
 }
 
 TEST(EnvironmentPicture, TravelsInAMaterial) {
@@ -54,7 +54,7 @@ TEST(EnvironmentPicture, IsTwiceAsWideAsHighAndReducedByMeans) {
   const auto path = folder.path() / "e.png";
   write_color_image(path, {12, 12, std::vector<unsigned char>(3 * 144, 255)});
   EXPECT_THROW(read_environment(path, 8), InvalidInput);
-  ColorImage halves{16, 8, std::vector<unsigned char>(3 * 128, 0)};
+  ColorImage halves{16, 8, Values<unsigned char>(3 * 128, 0)};
   for (std::size_t i = 0; i < halves.pixels.size(); ++i) halves.pixels[i] = (i / 3) % 2 == 0 ? 255 : 0;
   write_color_image(path, halves);
   const LinearImage reduced = decode_environment(read_environment(path, 8));

@@ -29,7 +29,7 @@ TEST(PixelText, DrawsTheDotsOfItsLetters) {
 }
 
 TEST(PixelText, NamesPanelsBelowThem) {
-  ColorImage picture{200, 20, std::vector<unsigned char>(3 * 200 * 20, 128)};
+  ColorImage picture{200, 20, Values<unsigned char>(3 * 200 * 20, 128)};
   const ColorImage named = with_captions(picture, {"lattice", ""});
   EXPECT_EQ(named.width, 200);
   ASSERT_GT(named.height, 20);

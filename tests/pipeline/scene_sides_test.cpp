@@ -124,7 +124,7 @@ TEST(SceneSides, RepairAndUnwrapTurn) {
   EXPECT_EQ(unwrapped.sides.facing_away, 1u);
   EXPECT_EQ(first_normal(unwrapped.scene.parts[0]), (Vec3{0, 0, 1}));
   const Triangle& uv = unwrapped.scene.parts[0].mesh.uv.indices[0];
-  const std::vector<Vec2>& values = unwrapped.scene.parts[0].mesh.uv.values;
+  const Values<Vec2>& values = unwrapped.scene.parts[0].mesh.uv.values;
   EXPECT_GT(cross(values[uv[1]] - values[uv[0]], values[uv[2]] - values[uv[0]]), 0);
   options.sides.keep = true;
   EXPECT_EQ(first_normal(unwrap_scene(scene, options).scene.parts[0]), (Vec3{0, 0, -1}));
@@ -188,7 +188,7 @@ TEST(SceneSides, BothDoorsOfTheCockpitFaceThePeople) {
       towards += inwards * n.x;
       if (mesh.normals.has_value(t)) normals += dot(n, mesh.normals.values[mesh.normals.indices[t][0]]);
       const Triangle& corners = mesh.uv.indices.at(t);
-      const std::vector<Vec2>& uv = mesh.uv.values;
+      const Values<Vec2>& uv = mesh.uv.values;
       uv_area += cross(uv[corners[1]] - uv[corners[0]], uv[corners[2]] - uv[corners[0]]);
     }
     EXPECT_GT(towards, 0.9 * area) << name;  // To the middle of the car.

@@ -121,7 +121,7 @@ TEST_F(StereoFile, RefusesPhotographsThatDoNotFit) {
   std::vector<fs::path> files = photographs();
   const fs::path output = folder_.path() / "relief.tif";
   refused([&] { height_of_picture_files({files[0], files[1]}, output, {}); }, "at least 3");
-  GreyImage small{40, 30, std::vector<float>(1200, 0.5F)};
+  GreyImage small{40, 30, Values<float>(1200, 0.5F)};
   write_grey_image(files[2], small, 32);
   refused([&] { height_of_picture_files(files, output, {}); }, files[2].string() + ": is 40 x 30");
   set_picture_memory(1 << 20);

@@ -101,7 +101,7 @@ TEST(UvCharts, AllMethodsMapTheSameCharts) {
 
 TEST(UvCharts, HolesStay) {
   TriangleMesh tube = test::cylinder(30, 100, 24, 4);
-  tube.uv = {{{0, 0}}, std::vector<Triangle>(tube.triangles.size(), Triangle{0, 0, 0})};  // no seam at all
+  tube.uv = {{{0, 0}}, Values<Triangle>(tube.triangles.size(), Triangle{0, 0, 0})};  // no seam at all
   const UnwrapResult result = unwrap_scene(scene_of(tube), uv_charts_by(UnwrapMethod::best));
   EXPECT_EQ(result.charts, 1u);
   EXPECT_TRUE(result.parts[0].flattening.charts.cuts.empty());
@@ -109,7 +109,7 @@ TEST(UvCharts, HolesStay) {
 
 TEST(UvCharts, ClosedOnesAreOpenedOnceForAllMethods) {
   for (TriangleMesh mesh : {test::uv_sphere(10, 8, 12), test::torus(30, 10, 16, 8)}) {
-    mesh.uv = {{{0, 0}}, std::vector<Triangle>(mesh.triangles.size(), Triangle{0, 0, 0})};
+    mesh.uv = {{{0, 0}}, Values<Triangle>(mesh.triangles.size(), Triangle{0, 0, 0})};
     for (const ChartSource source : {ChartSource::keep, ChartSource::uv}) {
       const ChartSet opened = given_charts(mesh, source);
       EXPECT_EQ(opened.count, 1u);

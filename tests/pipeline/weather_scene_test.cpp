@@ -196,7 +196,7 @@ Scene waves(const HeightMap& relief) {
 }
 
 TEST(Weather, TheOwnReliefIsTheFirstLayer) {
-  HeightMap relief{64, 64, std::vector<float>(64 * 64), 1000.0 / 64, 1000.0 / 64, true};
+  HeightMap relief{64, 64, Values<float>(64 * 64), 1000.0 / 64, 1000.0 / 64, true};
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) relief.at(x, y) = static_cast<float>(20 * std::sin(2 * std::numbers::pi * x / 32));
   const Scene scene = waves(relief);
@@ -225,7 +225,7 @@ TEST(Weather, TheOwnReliefIsTheFirstLayer) {
 }
 
 TEST(Weather, TheNewReliefIsFelt) {
-  HeightMap relief{32, 32, std::vector<float>(32 * 32), 1000.0 / 32, 1000.0 / 32, true};
+  HeightMap relief{32, 32, Values<float>(32 * 32), 1000.0 / 32, 1000.0 / 32, true};
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 32; ++x) relief.at(x, y) = static_cast<float>(20 * std::sin(2 * std::numbers::pi * x / 32));
   Scene scene = waves(relief);

@@ -2,7 +2,10 @@
 """Arrays are looked at in place, and stay good whatever becomes of what they look at."""
 import copy
 import gc
+import subprocess
+import sys
 import unittest
+import weakref
 
 import numpy as np
 import papilla
@@ -109,6 +112,192 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(view[1, 2], 0.25)
         self.assertEqual(memoryview(papilla.ColorImage(np.zeros((2, 5, 3), np.uint8))).shape, (2, 5, 3))
         self.assertEqual(np.asarray(papilla.HeightMap(samples)).shape, (3, 4))
+
+    def test_the_way_in_has_no_copy(self):
+        V, F, uv = self.V, self.F.astype(np.int32), self.V[:, :2].copy()
+        mesh = papilla.mesh(V, F, uv)
+        self.assertTrue(np.shares_memory(mesh.positions, V))
+        self.assertTrue(np.shares_memory(mesh.triangles, F))
+        self.assertTrue(np.shares_memory(mesh.uv.values, uv))
+        self.assertFalse(np.shares_memory(mesh.uv.indices, F))
+        V[3] = [1, 2, 3]
+        mesh.triangles[0] = mesh.triangles[1]
+        np.testing.assert_array_equal(mesh.positions[3], [1, 2, 3])
+        np.testing.assert_array_equal(F[0], F[1])
+        corners = np.zeros((len(F), 3, 2))
+        self.assertTrue(np.shares_memory(papilla.mesh(V, F, corners).uv.values, corners))
+        unsigned = F.view(np.uint32)
+        self.assertTrue(np.shares_memory(papilla.mesh(V, unsigned).triangles, F))
+
+    def test_nor_have_fields(self):
+        count = len(self.F)
+        fields = {
+            "positions": np.zeros((20, 3)),
+            "triangles": np.zeros((count, 3), np.int32),
+            "material": np.zeros(count, np.int32),
+            "face": np.zeros(count, np.int32),
+        }
+        for name, array in fields.items():
+            setattr(self.mesh, name, array)
+            self.assertTrue(np.shares_memory(getattr(self.mesh, name), array), name)
+            self.assertTrue(np.shares_memory(getattr(papilla.TriangleMesh(**{name: array}), name), array), name)
+        indices = np.zeros((count, 3), np.int32)
+        for Corner, values in (
+            (papilla.CornerVec2, np.zeros((5, 2))),
+            (papilla.CornerVec3, np.zeros((5, 3))),
+            (papilla.CornerColor, np.zeros((5, 4), np.float32)),
+        ):
+            corner = Corner(values=values, indices=indices)
+            self.assertTrue(np.shares_memory(corner.values, values), Corner)
+            self.assertTrue(np.shares_memory(corner.indices, indices), Corner)
+
+    def test_pictures_look_at_their_array(self):
+        for Picture, shape, dtype in (
+            (papilla.GreyImage, (3, 4), np.float32),
+            (papilla.ColorImage, (3, 4, 3), np.uint8),
+            (papilla.RgbaImage, (3, 4, 4), np.uint8),
+            (papilla.LinearImage, (3, 4, 3), np.float32),
+            (papilla.HeightMap, (3, 4), np.float32),
+            (papilla.HeightGrid, (4, 4), np.float64),
+        ):
+            array = np.arange(np.prod(shape)).reshape(shape).astype(dtype)
+            expected = array.copy()
+            picture = Picture(array)
+            self.assertTrue(np.shares_memory(picture.array, array), Picture)
+            picture.array[1, 2] = 7
+            np.testing.assert_array_equal(array[1, 2], picture.array[1, 2])
+            expected[1, 2] = 7
+            del array
+            gc.collect()
+            np.testing.assert_array_equal(picture.array, expected)
+            self.assertFalse(np.shares_memory(Picture(picture.array).array, picture.array), "of another picture")
+            self.assertFalse(np.shares_memory(Picture(np.asarray(picture)).array, picture.array), "nor by its buffer")
+
+    def test_what_is_looked_at_outlives_its_names(self):
+        V, F = self.V.copy(), self.F.astype(np.int32)
+        gone = weakref.ref(V)
+        mesh = papilla.mesh(V, F)
+        del V, F
+        gc.collect()
+        [np.full(60, 9.0) for _ in range(100)]
+        np.testing.assert_array_equal(mesh.positions, self.V)
+        np.testing.assert_array_equal(mesh.triangles, self.F)
+        view = mesh.positions
+        del mesh
+        gc.collect()
+        np.testing.assert_array_equal(view, self.V)
+        self.assertIsNotNone(gone())
+        del view
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_a_call_lets_go_of_its_arrays(self):
+        V = self.V.copy()
+        gone = weakref.ref(V)
+        papilla.distortion(V, self.F, V[:, :2])
+        papilla.parameterize(V, self.F, method="lscm")
+        papilla.Trajectory(np.arange(20.0), V)
+        mesh = papilla.mesh(V, self.F)
+        mesh.positions = self.V
+        del V
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_what_must_be_converted_or_not_be_written_is_copied(self):
+        frozen = self.V.copy()
+        frozen.flags.writeable = False
+        odd = np.zeros(8 * self.V.size + 1, np.uint8)[1:].view(np.float64).reshape(self.V.shape)
+        odd[:] = self.V
+        for V in (
+            frozen,
+            odd,
+            self.V.astype(np.float32),
+            self.V.astype(">f8"),
+            np.asfortranarray(self.V),
+            np.hstack([self.V, self.V])[:, 3:],
+            np.repeat(self.V, 2, axis=0)[::2],
+            self.V[::-1][::-1].tolist(),
+        ):
+            mesh = papilla.mesh(V, self.F.astype(np.int64))
+            np.testing.assert_allclose(mesh.positions, self.V, rtol=1e-6)
+            np.testing.assert_array_equal(mesh.triangles, self.F)
+            if isinstance(V, np.ndarray):
+                self.assertFalse(np.shares_memory(mesh.positions, V))
+            mesh.positions[:] = 0
+        np.testing.assert_array_equal(frozen, self.V)
+        report = papilla.distortion(frozen, self.F, frozen[:, :2])
+        self.assertEqual(report.per_triangle.shape, self.F.shape[:1])
+
+    def test_structs_stay_apart(self):
+        other = papilla.TriangleMesh(positions=self.mesh.positions, triangles=self.mesh.triangles)
+        self.assertFalse(np.shares_memory(other.positions, self.mesh.positions))
+        other.positions = self.mesh.positions
+        other.normals.values = self.mesh.positions[:5]
+        self.assertFalse(np.shares_memory(other.positions, self.mesh.positions))
+        self.assertFalse(np.shares_memory(other.normals.values, self.mesh.positions))
+        part = papilla.Part(mesh=self.mesh)
+        self.assertFalse(np.shares_memory(part.mesh.positions, self.V))
+        part.mesh.positions = self.V
+        part.mesh = papilla.mesh(5 * self.V, self.F)  # Goes to memory of its own, not into V.
+        np.testing.assert_array_equal(self.V, shapes.plane(4, 3)[0])
+        np.testing.assert_array_equal(part.mesh.positions, 5 * self.V)
+
+    def test_functions_that_change_a_mesh_leave_the_arrays(self):
+        V, F = shapes.cap(10, 10)
+        V, F = np.vstack([V, V[:3], V[:1] + 1e-9]), np.vstack([F, F[:4]]).astype(np.int32)
+        uv = V[:, :2].copy()
+        kept = V.copy(), F.copy(), uv.copy()
+        mesh = papilla.mesh(V, F, uv)
+        scene = papilla.single_part_scene(papilla.Part(name="a"), "test")
+        scene.parts[0].mesh.positions = V
+        scene.parts[0].mesh.triangles = F
+        papilla.weld_equal(mesh)
+        papilla.weld(mesh)
+        papilla.repair(mesh)
+        papilla.simplify(mesh, tolerance_mm=0.5)
+        papilla.parameterize(V, F, method="lscm")
+        papilla.distortion(V, F, uv)
+        papilla.repair_scene(scene)
+        papilla.unwrap_scene(scene)
+        for now, before in zip((V, F, uv), kept):
+            np.testing.assert_array_equal(now, before)
+        self.assertTrue(np.shares_memory(mesh.positions, V))
+        self.assertTrue(np.shares_memory(scene.parts[0].mesh.positions, V))
+
+    def test_large_arrays_take_no_memory_on_the_way_in(self):
+        code = """
+import resource
+import numpy as np
+import papilla
+
+def peak():
+    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+V = np.full((2_000_000, 3), 0.5)
+V[:3] = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+uv = np.full((2_000_000, 2), 0.5)
+uv[:3] = V[:3, :2]
+F = np.array([[0, 1, 2]], np.int32)
+samples = np.full((4000, 4000), 0.5, np.float32)
+papilla.distortion(V[:3], F, uv[:3])
+before = peak()
+mesh = papilla.mesh(V, F, uv)
+mesh.positions = V
+picture = papilla.GreyImage(samples)
+relief = papilla.HeightMap(samples)
+made = peak() - before
+before = peak()
+papilla.Trajectory(np.array([0.0, 1.0]), V[:2])
+try:
+    papilla.distortion(V, np.array([[0, 1, 5_000_000]], np.int32), uv)
+except papilla.InvalidInput:
+    pass
+print(made, peak() - before)
+"""
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+        made, measured = map(int, run.stdout.split())
+        self.assertLess(made, 16e6, "of 208 million bytes")
+        self.assertLess(measured, 16e6, "of 80 million bytes")
 
     def test_text_of_a_struct(self):
         text = repr(papilla.RepairOptions(weld_mm=0.25))

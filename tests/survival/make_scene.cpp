@@ -67,7 +67,7 @@ TriangleMesh plate_mesh() {
 }
 
 HeightMap relief_of(double wave_mm) {
-  HeightMap relief{128, 128, std::vector<float>(std::size_t{128} * 128), k_repeat_mm / 128, k_repeat_mm / 128, true};
+  HeightMap relief{128, 128, Values<float>(std::size_t{128} * 128), k_repeat_mm / 128, k_repeat_mm / 128, true};
   const double k = 2 * std::numbers::pi / wave_mm;
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x)
@@ -93,7 +93,7 @@ MaterialTag tag_of(const Plate& plate) {
 
 /// A picture of its own for each textured plate, as normal map, so that tools keep the texture coordinates.
 std::uint32_t add_picture(Scene& scene, const std::string& name) {
-  ColorImage picture{64, 64, std::vector<unsigned char>(std::size_t{3} * 64 * 64, 128)};
+  ColorImage picture{64, 64, Values<unsigned char>(std::size_t{3} * 64 * 64, 128)};
   for (std::size_t i = 0; i < picture.pixels.size(); i += 3) {
     picture.pixels[i] = static_cast<unsigned char>(120 + (i / 3 + scene.images.size()) % 16);
     picture.pixels[i + 2] = 255;

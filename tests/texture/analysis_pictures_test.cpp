@@ -46,7 +46,7 @@ TEST(AnalysisPictures, WithoutLatticeTheLastPanelsAreGrey) {
 
 TEST(AnalysisPictures, GreyBecomesColour) {
   const ColorImage image = to_color_image(test::make_image(3, 1, [](int x, int) { return x - 0.5; }));
-  EXPECT_EQ(image.pixels, (std::vector<unsigned char>{0, 0, 0, 128, 128, 128, 255, 255, 255}));
+  EXPECT_EQ(image.pixels, (Values<unsigned char>{0, 0, 0, 128, 128, 128, 255, 255, 255}));
   EXPECT_THROW(to_color_image(GreyImage{}), InvalidInput);
 }
 

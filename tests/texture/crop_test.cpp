@@ -14,7 +14,7 @@ TEST(Crop, TakesThePixelsAskedFor) {
       7, 5, [](int x, int y) { return 10 * y + x; }, 8);
   image.pitch_mm = 0.25;
   const GreyImage part = crop(image, 2, 1, 3, 2);
-  EXPECT_EQ(part.pixels, (std::vector<float>{12, 13, 14, 22, 23, 24}));
+  EXPECT_EQ(part.pixels, (Values<float>{12, 13, 14, 22, 23, 24}));
   EXPECT_EQ(part.pitch_mm, 0.25);
   EXPECT_EQ(part.bits, 8);
   const GreyImage middle = middle_part(image, 3);

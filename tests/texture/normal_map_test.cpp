@@ -21,7 +21,7 @@ Vec3 decoded(const ColorImage& image, int x, int y) {
 
 TEST(NormalMap, FlatIsTheConventionalBlue) {
   const ColorImage image = normal_map(test::make_relief(2, 2, 0.1, [](int, int) { return 3.0; }));
-  EXPECT_EQ(image.pixels, (std::vector<unsigned char>{128, 128, 255, 128, 128, 255, 128, 128, 255, 128, 128, 255}));
+  EXPECT_EQ(image.pixels, (Values<unsigned char>{128, 128, 255, 128, 128, 255, 128, 128, 255, 128, 128, 255}));
 }
 
 TEST(NormalMap, SlopesLeanAwayFromTheRise) {

@@ -15,7 +15,7 @@ namespace {
 
 TEST(ReliefOfNormals, IsTheInverseOfTheNormalMap) {
   // Waves of 48 to 8 texels, on unlike pitches.
-  HeightMap relief{48, 40, std::vector<float>(48 * 40), 0.1, 0.15, true};
+  HeightMap relief{48, 40, Values<float>(48 * 40), 0.1, 0.15, true};
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 48; ++x) {
       const double u = 2 * std::numbers::pi * x / 48, v = 2 * std::numbers::pi * y / 40;
@@ -31,7 +31,7 @@ TEST(ReliefOfNormals, IsTheInverseOfTheNormalMap) {
 }
 
 TEST(ReliefOfNormals, TheScaleMultipliesTheSlopes) {
-  HeightMap relief{32, 8, std::vector<float>(32 * 8), 1, 1, true};
+  HeightMap relief{32, 8, Values<float>(32 * 8), 1, 1, true};
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 32; ++x) relief.at(x, y) = static_cast<float>(std::sin(2 * std::numbers::pi * x / 32));
   const HeightMap half = relief_of_normals(normal_map(relief), 0.5, 1, 1);
@@ -42,7 +42,7 @@ TEST(ReliefOfNormals, AFlatMapIsFlatAndBadOnesAreRefused) {
   const ColorImage flat{
       3, 2, {128, 128, 255, 128, 128, 255, 128, 128, 255, 128, 128, 255, 128, 128, 255, 128, 128, 255}};
   for (const float h : relief_of_normals(flat, 1, 1, 1).mm) EXPECT_EQ(h, 0);
-  const ColorImage inwards{2, 2, std::vector<unsigned char>(12, 0)};
+  const ColorImage inwards{2, 2, Values<unsigned char>(12, 0)};
   for (const float h : relief_of_normals(inwards, 1, 1, 1).mm) EXPECT_TRUE(std::isfinite(h));
   EXPECT_THROW(relief_of_normals({}, 1, 1, 1), InvalidInput);
   EXPECT_THROW(relief_of_normals(flat, 1, 0, 1), InvalidInput);

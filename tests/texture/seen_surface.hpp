@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "papilla/texture/stein_surface.hpp"
@@ -25,8 +26,8 @@ struct SeenSurface {
 };
 
 /// Convolution with the sampled Gaussian to 5 σ; borders reflect.
-inline std::vector<double> blurred(const std::vector<double>& z, int side, double spread) {
-  if (!(spread > 0)) return z;
+inline std::vector<double> blurred(std::span<const double> z, int side, double spread) {
+  if (!(spread > 0)) return {z.begin(), z.end()};
   const int reach = static_cast<int>(std::ceil(5 * spread));
   std::vector<double> weights;
   double sum = 0;

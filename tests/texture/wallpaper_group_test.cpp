@@ -52,7 +52,7 @@ TEST(WallpaperGroup, AveragingKeepsWhatTheGroupShares) {
   const WallpaperSymmetry found = find_wallpaper_group(*analysis.part, analysis.lattice.vectors_px);
   EXPECT_GT(found.kept, 0.995);
   double difference = 0, square = 0, mean = 0;
-  const std::vector<float>&before = analysis.part->primitive.pixels, &after = found.primitive.pixels;
+  const Values<float>&before = analysis.part->primitive.pixels, &after = found.primitive.pixels;
   ASSERT_EQ(before.size(), after.size());
   for (const float grey : before) mean += static_cast<double>(grey) / static_cast<double>(before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {

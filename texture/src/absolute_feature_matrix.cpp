@@ -26,8 +26,8 @@ double difference(const float* a, const float* b, int count) {
   return sum;
 }
 
-template <typename Value>
-void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, int height, double unit,
+template <class Samples>
+void fill(FeatureMatrix& matrix, const Samples& values, int width, int height, double unit,
           const ProgressCallback& progress) {
   const auto columns = static_cast<std::ptrdiff_t>(matrix.width());
   double* centre =

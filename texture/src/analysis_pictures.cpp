@@ -114,7 +114,7 @@ void draw_matrix(Panel& panel, const SymmetryAnalysis& analysis) {
 
 ColorImage to_color_image(const GreyImage& image) {
   texture_detail::require_image(image, "to_color_image");
-  ColorImage picture{image.width, image.height, std::vector<unsigned char>(3 * image.pixels.size())};
+  ColorImage picture{image.width, image.height, Values<unsigned char>(3 * image.pixels.size())};
   Panel(picture, 0, image.width).fill([&](int x, int y) { return static_cast<double>(image.at(x, y)); });
   return picture;
 }

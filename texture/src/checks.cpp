@@ -2,6 +2,7 @@
 #include "checks.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 #include "papilla/core/error.hpp"
@@ -9,7 +10,7 @@
 namespace papilla::texture_detail {
 namespace {
 
-void require_samples(const std::vector<float>& samples, int width, int height, const char* function) {
+void require_samples(std::span<const float> samples, int width, int height, const char* function) {
   const std::string name(function);
   if (width < 1 || height < 1)
     throw InvalidInput(name + ": the picture is empty (" + std::to_string(width) + " x " + std::to_string(height) +

@@ -112,9 +112,9 @@ std::vector<double> leather_relief(int size_px, double size_mm, std::uint64_t se
     const double shortest = std::clamp(shortest_mm / pitch, 2.0, 0.75 * longest);
     return spectral_surface({size_px, hurst, shortest, longest, seed * 16 + stream}).heights;
   };
-  const std::vector<double> warp_x = waves(2.5, 8, 0.6, 1), warp_y = waves(2.5, 8, 0.6, 2);
-  const std::vector<double> roughness = waves(0, 1, 0.6, 3), undulation = waves(6, 25, 0.5, 4);
-  const std::vector<double> crease_depth = waves(1.5, 8, 0.3, 5);  // Some creases are deep folds, some hardly there.
+  const Values<double> warp_x = waves(2.5, 8, 0.6, 1), warp_y = waves(2.5, 8, 0.6, 2);
+  const Values<double> roughness = waves(0, 1, 0.6, 3), undulation = waves(6, 25, 0.5, 4);
+  const Values<double> crease_depth = waves(1.5, 8, 0.3, 5);  // Some creases are deep folds, some hardly there.
 
   Random random(seed);
   const int pebbles = cells(size_mm, k_pebble_mm), wrinkles = cells(size_mm, k_wrinkle_mm);

@@ -223,7 +223,7 @@ std::vector<double> height_by_shading(const GreyImage& picture, const HeightOpti
   const EvenedSamples evened = brightness_of(samples, curve_of(picture, options), result);
   const auto shading = choose_shading(evened, options, result);
   if (!shading) return std::vector<double>(picture.pixels.size(), 0.0);
-  GreyImage image{picture.width, picture.height, std::vector<float>(picture.pixels.size()), 0, 32};
+  GreyImage image{picture.width, picture.height, Values<float>(picture.pixels.size()), 0, 32};
   for (int y = 0; y < image.height; ++y) evened.read(0, y, image.width, &image.at(0, y));
   using Solve = ShadingResult(const GreyImage&, const ShadingOptions&);
   ShadingResult solved = result.method == HeightMethod::wiener

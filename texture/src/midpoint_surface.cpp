@@ -45,7 +45,7 @@ class Grid {
  private:
   int side_, size_;
   bool periodic_;
-  std::vector<double> heights_;
+  Values<double> heights_;
 };
 
 double covariance(Vec2 s, Vec2 t, double hurst) {

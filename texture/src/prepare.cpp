@@ -252,7 +252,7 @@ GreyImage mirrored(const GreyImage& image) {
 }
 
 void stretch(GreyImage& image) {
-  std::vector<float> greys = image.pixels;
+  Values<float> greys = image.pixels;
   const auto percentile = [&](double share) {
     const auto place = greys.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(greys.size() - 1));
     std::nth_element(greys.begin(), place, greys.end());

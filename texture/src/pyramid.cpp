@@ -84,7 +84,7 @@ class HalvedRows final : public SampleRows {
 };
 
 GreyImage all_of(const SampleRows& rows) {
-  GreyImage image{rows.width(), rows.height(), std::vector<float>(static_cast<std::size_t>(rows.count())), 0, 32};
+  GreyImage image{rows.width(), rows.height(), Values<float>(static_cast<std::size_t>(rows.count())), 0, 32};
   for (int y = 0; y < rows.height(); ++y) rows.read(0, y, rows.width(), &image.at(0, y));
   return image;
 }

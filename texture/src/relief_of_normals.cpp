@@ -56,7 +56,7 @@ HeightMap relief_of_normals(const ColorImage& map, double scale, double pitch_mm
       value = denominator > 0 ? std::complex(sum.imag(), -sum.real()) / denominator : std::complex(0.0, 0.0);
     }
   across.backward();
-  HeightMap relief{map.width, map.height, std::vector<float>(texels), pitch_mm_x, pitch_mm_y, true};
+  HeightMap relief{map.width, map.height, Values<float>(texels), pitch_mm_x, pitch_mm_y, true};
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x)
       relief.at(x, y) = static_cast<float>(across.real(x, y) / static_cast<double>(texels));

@@ -40,7 +40,7 @@ HeightGrid spectral_surface(const SpectralSurfaceOptions& options) {
       return 0.0;
     return std::pow(waves, -directional_hurst(options, x, y) - 1);
   };
-  HeightGrid surface{n, texture_detail::shaped_noise(n, n, options.seed, gain, options.progress), true};
+  HeightGrid surface{n, adopted_values(texture_detail::shaped_noise(n, n, options.seed, gain, options.progress)), true};
   if (std::all_of(surface.heights.begin(), surface.heights.end(), [](double h) { return h == 0; }))
     throw InvalidInput("spectral_surface: no wave of a " + std::to_string(n) + " pixel surface is between " +
                        std::to_string(options.shortest_wavelength_px) + " and " +
@@ -52,7 +52,7 @@ GreyImage to_grey_image(const HeightGrid& surface, int bits) {
   if (surface.heights.empty()) throw InvalidInput("to_grey_image: the surface is empty");
   if (bits != 8 && bits != 16 && bits != 32)
     throw InvalidInput("to_grey_image: bits " + std::to_string(bits) + " is not 8, 16 or 32");
-  GreyImage image{surface.size, surface.size, std::vector<float>(surface.heights.size()), 0, bits};
+  GreyImage image{surface.size, surface.size, Values<float>(surface.heights.size()), 0, bits};
   const auto [low, high] = std::minmax_element(surface.heights.begin(), surface.heights.end());
   const double offset = *low, range = *high - *low, steps = bits == 8 ? 255 : 65535;
   std::transform(surface.heights.begin(), surface.heights.end(), image.pixels.begin(), [&](double height) {

@@ -100,7 +100,7 @@ HeightGrid brownian_surface_exact(const BrownianSurfaceOptions& options) {
   const double slope_x = tilt * random.normal(), slope_y = tilt * random.normal();
   const double unfft = 1 / (static_cast<double>(period) * period);
   const double scale = std::pow(pitch, -options.hurst) / std::numbers::sqrt2;
-  HeightGrid surface{n, std::vector<double>(static_cast<std::size_t>(n) * static_cast<std::size_t>(n)), false};
+  HeightGrid surface{n, Values<double>(static_cast<std::size_t>(n) * static_cast<std::size_t>(n)), false};
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x)
       surface.heights[texture_detail::pixel_index(x, y, n)] =

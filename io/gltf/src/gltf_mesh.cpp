@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "draco_mesh.hpp"
 #include "papilla/core/error.hpp"
@@ -316,7 +317,7 @@ class PrimitiveReader {
   }
 
   /// Adds the triangles with all attributes. Values of those that this primitive lacks keep the numbering common.
-  void append(const Vertices& vertices, const std::vector<Triangle>& triangles, std::uint32_t slot,
+  void append(const Vertices& vertices, std::span<const Triangle> triangles, std::uint32_t slot,
               PartBuilder& builder) const {
     TriangleMesh& mesh = builder.part.mesh;
     builder.has_normals |= !vertices.normals.empty();
@@ -371,7 +372,7 @@ void fill_flat_normals(TriangleMesh& mesh) {
 
 /// Gives an attribute the common corner numbers on the triangles whose primitive carries it.
 template <class T>
-void number_attribute(CornerAttribute<T>& attribute, const std::vector<Triangle>& numbers,
+void number_attribute(CornerAttribute<T>& attribute, const Values<Triangle>& numbers,
                       const std::vector<std::uint8_t>& carries, std::uint8_t kind) {
   const auto carried = [kind](std::uint8_t c) { return (c & kind) != 0; };
   if (std::none_of(carries.begin(), carries.end(), carried)) {
@@ -396,7 +397,7 @@ void drop_constant(CornerAttribute<Vec2>& attribute) {
 Part finish(PartBuilder builder) {
   TriangleMesh& mesh = builder.part.mesh;
   mesh.positions = builder.welder.take_points();
-  const std::vector<Triangle> numbers = std::move(mesh.uv.indices);
+  const Values<Triangle> numbers = std::move(mesh.uv.indices);
   number_attribute(mesh.uv, numbers, builder.carries, k_uv);
   number_attribute(mesh.uv1, numbers, builder.carries, k_uv1);
   number_attribute(mesh.colors, numbers, builder.carries, k_colors);

@@ -16,8 +16,8 @@ constexpr int k_side = 128, k_fractal_side = 129;
 
 template <class Grey>
 GreyImage picture(int width, int height, int bits, Grey&& grey) {
-  GreyImage image{width, height, std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
-                  0, bits};
+  GreyImage image{width, height, Values<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), 0,
+                  bits};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) image.at(x, y) = static_cast<float>(grey(x, y));
   return image;

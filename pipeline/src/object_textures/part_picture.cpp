@@ -173,7 +173,7 @@ PartPicture resolved(const Raster& raster, const CarrierFrame& frame, int width,
   picture.color = {width, height, {}};
   picture.normals = {width, height, {}};
   picture.relief = {width, height, {}, frame.width_mm / width, frame.height_mm / height, false};
-  std::vector<float>& heights = picture.relief.mm;
+  Values<float>& heights = picture.relief.mm;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       Vec3 color, normal;

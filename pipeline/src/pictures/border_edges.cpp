@@ -2,10 +2,11 @@
 #include "pictures/border_edges.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace papilla {
 
-std::vector<std::array<bool, 3>> border_edges(const std::vector<Triangle>& triangles) {
+std::vector<std::array<bool, 3>> border_edges(std::span<const Triangle> triangles) {
   struct Edge {
     Index low, high;
     std::size_t triangle, corner;

@@ -39,7 +39,7 @@ TriangleMesh bones(const std::vector<std::uint32_t>& slots) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}};
   mesh.triangles.assign(slots.size(), {0, 0, 0});
-  mesh.material = slots;
+  mesh.material.assign(slots.begin(), slots.end());
   return mesh;
 }
 

@@ -262,7 +262,7 @@ Shine shine_of(const PaintedSurface& surface, std::optional<double> roughness, s
   if (roughness && metallic) return shine;
   const SurfacePicture& picture = surface.picture;
   ColorImage& image = shine.picture.emplace(
-      ColorImage{picture.width, picture.height, std::vector<unsigned char>(3 * picture.texels(), 255)});
+      ColorImage{picture.width, picture.height, Values<unsigned char>(3 * picture.texels(), 255)});
   for (std::size_t i = 0; i < picture.texels(); ++i) {
     if (!roughness) image.pixels[3 * i + 1] = picture.shine[2 * i];
     if (!metallic) image.pixels[3 * i + 2] = picture.shine[2 * i + 1];
@@ -271,7 +271,7 @@ Shine shine_of(const PaintedSurface& surface, std::optional<double> roughness, s
 }
 
 ColorImage color_of(const SurfacePicture& picture) {
-  ColorImage image{picture.width, picture.height, std::vector<unsigned char>(3 * picture.texels())};
+  ColorImage image{picture.width, picture.height, Values<unsigned char>(3 * picture.texels())};
   for (std::size_t i = 0; i < picture.texels(); ++i)
     std::copy_n(picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i), 3,
                 image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * i));
@@ -289,7 +289,7 @@ std::vector<unsigned char> with_alpha(const ColorImage& image) {
 std::vector<std::byte> encode_color(const PaintedSurface& surface) {
   const SurfacePicture& picture = surface.picture;
   if (surface.ranges.alpha.is_constant()) return encode_png(color_of(picture));
-  return encode_png(RgbaImage{picture.width, picture.height, picture.rgba});
+  return encode_png(RgbaImage{picture.width, picture.height, {picture.rgba.begin(), picture.rgba.end()}});
 }
 
 SurfaceReading reading_of(const ProceduralTexture& texture) {

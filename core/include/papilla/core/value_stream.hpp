@@ -106,8 +106,8 @@ class ValueWriter {
     size(value.index());
     std::visit([this](const auto& held) { write(held); }, value);
   }
-  template <class T>
-  void write(const std::vector<T>& list) {
+  template <class T, class Allocator>
+  void write(const std::vector<T, Allocator>& list) {
     size(list.size());
     if constexpr (k_is_dense<T>)
       sink_.write(list.data(), list.size() * sizeof(T));
@@ -203,8 +203,8 @@ class ValueReader {
     const bool known = ((number++ == index && (read(value.template emplace<Types>()), true)) || ...);
     if (!known) throw IoError("a value is of no type that it can have");
   }
-  template <class T>
-  void read(std::vector<T>& list) {
+  template <class T, class Allocator>
+  void read(std::vector<T, Allocator>& list) {
     constexpr std::size_t k_item = k_is_dense<T> ? sizeof(T) : 1;
     list.resize(size(k_item));
     if constexpr (k_is_dense<T>)

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "papilla/core/values.hpp"
+
 namespace papilla {
 
 struct Scene;
@@ -15,7 +17,7 @@ struct Scene;
 /// An 8-bit picture with alpha, interleaved, row by row from the top left. Colours are not multiplied by alpha.
 struct RgbaImage {
   int width = 0, height = 0;
-  std::vector<unsigned char> pixels;  ///< 4 * width * height values.
+  Values<unsigned char> pixels;  ///< 4 * width * height values.
 
   const unsigned char* at(int x, int y) const {
     return &pixels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
@@ -45,7 +47,7 @@ std::vector<std::byte> encode_png(const RgbaImage& image);
 /// A picture of linear light, RGB, interleaved, row by row from the top left; values are finite and at least 0.
 struct LinearImage {
   int width = 0, height = 0;
-  std::vector<float> pixels;  ///< 3 * width * height values.
+  Values<float> pixels;  ///< 3 * width * height values.
 
   const float* at(int x, int y) const {
     return &pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];

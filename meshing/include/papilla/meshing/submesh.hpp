@@ -11,8 +11,8 @@ namespace papilla {
 
 /// Some triangles of a mesh as a mesh of their own, with maps back.
 struct Submesh {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
+  Values<Vec3> positions;
+  Values<Triangle> triangles;
   std::vector<Index> vertex_of;    ///< Local vertex -> the mesh's vertex; several may name the same one.
   std::vector<Index> triangle_of;  ///< Local triangle -> the mesh's triangle, in the order asked for.
 };

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "papilla/core/values.hpp"
 #include "papilla/core/vec.hpp"
 
 namespace papilla {
@@ -19,8 +19,8 @@ inline constexpr Index k_no_value = 0xffffffffu;
 /// while the positions stay welded. Either empty, or `indices` has one entry per triangle.
 template <class T>
 struct CornerAttribute {
-  std::vector<T> values;
-  std::vector<Triangle> indices;
+  Values<T> values;
+  Values<Triangle> indices;
   bool empty() const noexcept { return indices.empty(); }
   bool has_value(std::size_t triangle) const noexcept { return !empty() && indices[triangle][0] != k_no_value; }
 };
@@ -34,8 +34,8 @@ struct Color {
 /// Readers promise finite positions and indices in range; nothing else: neither welded
 /// nor manifold nor oriented. Every stage states what it adds.
 struct TriangleMesh {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
+  Values<Vec3> positions;
+  Values<Triangle> triangles;
 
   CornerAttribute<Vec3> normals;
   CornerAttribute<Vec2> uv;      ///< Texture channel 0; the unit is the owner's (charts: mm, files: texture repeats).
@@ -43,8 +43,8 @@ struct TriangleMesh {
   CornerAttribute<Vec2> cad_uv;  ///< The CAD surface's own parameters.
   CornerAttribute<Color> colors;
 
-  std::vector<std::uint32_t> material;  ///< Per triangle: slot in the owner's material list; empty: all 0.
-  std::vector<std::uint32_t> face;      ///< Per triangle: number of the CAD face or file group; empty: none.
+  Values<std::uint32_t> material;  ///< Per triangle: slot in the owner's material list; empty: all 0.
+  Values<std::uint32_t> face;      ///< Per triangle: number of the CAD face or file group; empty: none.
 
   Vec3 corner(std::size_t triangle, int k) const { return positions[triangles[triangle][static_cast<std::size_t>(k)]]; }
 };

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/core/values.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/io/rgba_image.hpp"
 #include "papilla/io/scene.hpp"
@@ -25,7 +26,7 @@ inline constexpr int k_scene_environment_width = 512, k_material_environment_wid
 /// Coded as RGBE, four bytes a pixel: c = mantissa · 2^(exponent − 136), black is 0 [Ward, Real pixels, 1991].
 struct EnvironmentPicture {
   int width = 0, height = 0;
-  std::vector<unsigned char> rgbe;  ///< 4 * width * height values.
+  Values<unsigned char> rgbe;  ///< 4 * width * height values.
   friend bool operator==(const EnvironmentPicture&, const EnvironmentPicture&) = default;
 };
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "papilla/core/values.hpp"
 #include "papilla/haptic/channel_field.hpp"
 #include "papilla/haptic/material_tag.hpp"
 
@@ -12,7 +13,7 @@ namespace papilla {
 /// What a quantity is at every texel, row by row: in its SI unit, or in multiples of a material's constant.
 struct QuantityMap {
   Quantity quantity = Quantity::stiffness;
-  std::vector<float> values;  ///< ≥ 0
+  Values<float> values;  ///< ≥ 0
 };
 
 /// Up to three maps over one picture, no two of the same quantity.

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "papilla/core/values.hpp"
 #include "papilla/texture/image.hpp"
 
 namespace papilla {
@@ -11,7 +11,7 @@ namespace papilla {
 /// Heights over a square grid, row by row, in units of the grid's pitch.
 struct HeightGrid {
   int size = 0;
-  std::vector<double> heights;  ///< size * size values.
+  Values<double> heights;  ///< size * size values.
   bool periodic = false;
 
   double at(int x, int y) const {

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+
+#include "papilla/core/values.hpp"
 
 namespace papilla {
 
@@ -10,7 +11,7 @@ namespace papilla {
 /// Sample (x, y) covers the square of side `pitch_mm` around ((x+½), (y+½))·pitch_mm.
 struct HeightMap {
   int width = 0, height = 0;
-  std::vector<float> mm;  ///< width * height heights.
+  Values<float> mm;  ///< width * height heights.
   double pitch_mm_x = 0, pitch_mm_y = 0;
   bool periodic = false;  ///< True when the right neighbour of the last column is the first one, and likewise for rows.
 

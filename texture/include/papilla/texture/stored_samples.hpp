@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <span>
-#include <vector>
 
 #include "papilla/texture/sample_rows.hpp"
 
@@ -13,12 +12,12 @@ namespace papilla {
 class SamplesInMemory final : public SampleRows {
  public:
   /// @pre samples.size() == width * height.
-  SamplesInMemory(const std::vector<float>& samples, int width, int height)
+  SamplesInMemory(std::span<const float> samples, int width, int height)
       : SampleRows(width, height), samples_(samples) {}
   void read(int x, int y, int count, float* samples) const override;
 
  private:
-  const std::vector<float>& samples_;
+  std::span<const float> samples_;
 };
 
 /// scale · (sample − origin), plus `offset`, of other samples, which must outlive the object.

@@ -27,15 +27,15 @@ class VertexWelder {
   /// @throws std::length_error as add().
   void add(std::span<const Vec3> points, std::span<Index> numbers);
 
-  const std::vector<Vec3>& points() const noexcept { return points_; }
-  std::vector<Vec3> take_points() noexcept { return std::move(points_); }
+  const Values<Vec3>& points() const noexcept { return points_; }
+  Values<Vec3> take_points() noexcept { return std::move(points_); }
 
  private:
   void reserve_slots(std::size_t further_points);
   std::size_t slot_of(Vec3 point, std::size_t first) const noexcept;
   Index add_at(Vec3 point, std::size_t first_slot);
 
-  std::vector<Vec3> points_;
+  Values<Vec3> points_;
   std::vector<Index> table_;
 };
 
