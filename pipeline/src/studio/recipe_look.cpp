@@ -50,18 +50,12 @@ ColorImage normals_of(const MaterialRule& rule, const PaintedSurface& painted) {
   for (double& mm : size)
     if (!(mm > 0)) mm = k_common_size_mm;
   const double depth = depth_mm_of(rule, size) * rule.height.scale;
-<<<<<<< HEAD
   HeightMap relief{picture.width,
                    picture.height,
-                   picture.bump,
+                   Values<float>(picture.bump.begin(), picture.bump.end()),
                    size[0] / painted.texels_per_repeat,
                    size[1] / painted.texels_per_repeat,
                    painted.repeats};
-=======
-  HeightMap relief{
-      picture.width,           picture.height,           Values<float>(picture.bump.begin(), picture.bump.end()),
-      size[0] / picture.width, size[1] / picture.height, true};
->>>>>>> nocopy
   for (float& h : relief.mm) h *= static_cast<float>(depth);
   ColorImage normals = normal_map(relief);
   const double friction = rule.static_friction.value_or(painted.ranges.friction.mean());
