@@ -305,8 +305,8 @@ constexpr ShadingMethod k_shading_methods[] = {{"variational", shape_from_shadin
                                                {"tsai-shah", shape_from_shading_tsai_shah}};
 
 GreyImage uniform(int width, int height, float grey) {
-  return {width, height, Values<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), grey),
-          0, 32};
+  return {width, height, Values<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), grey), 0,
+          32};
 }
 
 /// Pictures that nothing can be read from.

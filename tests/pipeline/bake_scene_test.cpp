@@ -331,8 +331,7 @@ TEST_F(BakeTest, MapsAsUnwrapDoes) {
   ASSERT_EQ(baked.surfaces.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(baked.surfaces[i].mesh.triangles, unwrapped.scene.parts[i].mesh.triangles) << i;
-    const Values<Vec2>&written = baked.surfaces[i].mesh.uv.values,
-          &exact = unwrapped.scene.parts[i].mesh.uv.values;
+    const Values<Vec2>&written = baked.surfaces[i].mesh.uv.values, &exact = unwrapped.scene.parts[i].mesh.uv.values;
     ASSERT_EQ(written.size(), exact.size()) << i;
     for (std::size_t v = 0; v < exact.size(); ++v) {  // Repeats in single precision.
       ASSERT_NEAR(written[v].x, exact[v].x, 1e-6 * (std::abs(exact[v].x) + options.tile_mm.x)) << i;

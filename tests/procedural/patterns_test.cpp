@@ -184,15 +184,14 @@ TEST(SeamlessCells, PointsRepelEachOtherAcrossBothBorders) {
     const std::string recipe = "voronoiseamless|points=9|smoothiterations=200|mainfunction=";
     const auto px = main_at(recipe + "get(0)", x, y, 0, seed), py = main_at(recipe + "get(1)", x, y, 0, seed);
     std::set<std::pair<double, double>> found;
-    for (std::size_t i = 0; i < px.size(); ++i)
-      found.emplace(static_cast<double>(px[i]), static_cast<double>(py[i]));
+    for (std::size_t i = 0; i < px.size(); ++i) found.emplace(static_cast<double>(px[i]), static_cast<double>(py[i]));
     ASSERT_EQ(found.size(), 9U) << seed;
     const std::vector<std::pair<double, double>> sites(found.begin(), found.end());
     const auto wrapped = [](double d) { return d - std::round(d); };
     for (std::size_t i = 0; i < sites.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        least = std::min(least, std::hypot(wrapped(sites[i].first - sites[j].first),
-                                           wrapped(sites[i].second - sites[j].second)));
+        least = std::min(
+            least, std::hypot(wrapped(sites[i].first - sites[j].first), wrapped(sites[i].second - sites[j].second)));
   }
   // Points of a hexagonal lattice would lie 0.358 apart.
   EXPECT_GT(least, 0.2);

@@ -38,8 +38,8 @@ struct SlopeLimitResult {
 ///
 /// It breaks sharp walls: a step of height H becomes a ramp of width H/s, details of that size merge, and where a whole
 /// relief is steep its range falls. A groove narrower than its depth over s becomes shallower.
-/// Cost: about 3 ns a sample and step of one thread; some 10 steps where single samples are too steep, some 300 where walls of
-/// ten samples are. Deterministic. Memory: 48 bytes a sample.
+/// Cost: about 3 ns a sample and step of one thread; some 10 steps where single samples are too steep, some 300 where
+/// walls of ten samples are. Deterministic. Memory: 48 bytes a sample.
 /// @throws InvalidInput when the relief is empty, not finite or without pitch, or an option is out of range.
 SlopeLimitResult limit_slope(const HeightMap& relief, const SlopeLimitOptions& options);
 
