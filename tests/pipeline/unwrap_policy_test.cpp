@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 
 #include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
@@ -31,8 +32,7 @@ Materials grain_everywhere() {
 }
 
 /// What was baked is measured as it is written, in repeats of the tile and single precision.
-void expect_equal_as_written(const std::vector<Vec2>& baked, const std::vector<Vec2>& unwrapped,
-                             const std::string& where) {
+void expect_equal_as_written(std::span<const Vec2> baked, std::span<const Vec2> unwrapped, const std::string& where) {
   ASSERT_EQ(baked.size(), unwrapped.size()) << where;
   double farthest = k_tile_mm;
   for (const Vec2& uv : unwrapped) farthest = std::max({farthest, std::abs(uv.x), std::abs(uv.y)});
