@@ -165,9 +165,9 @@ template <RecordType T>
 void record_from(T& value, py::handle given, const std::string& place) {
   if (py::isinstance<T>(given)) {
     if constexpr (std::is_copy_assignable_v<T>) {
-      const T copy = given.cast<const T&>();
+      T copy = given.cast<const T&>();
       retire_fields(entry_of<T>(), &value);
-      value = copy;
+      value = std::move(copy);  // A copy would be written into arrays that the value borrows.
     } else {
       throw UsageError(place + ": can't be copied");
     }
