@@ -67,7 +67,7 @@ std::array<double, 9> harmonics(Vec3 d) {
 }  // namespace
 
 EnvironmentPicture encode_environment(const LinearImage& image) {
-  EnvironmentPicture picture{image.width, image.height, std::vector<unsigned char>(image.pixels.size() / 3 * 4, 0)};
+  EnvironmentPicture picture{image.width, image.height, Values<unsigned char>(image.pixels.size() / 3 * 4)};
   for (std::size_t i = 0; i < image.pixels.size() / 3; ++i) {
     const float* c = &image.pixels[3 * i];
     const double largest = static_cast<double>(std::max({c[0], c[1], c[2]}));
