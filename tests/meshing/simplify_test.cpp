@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/statistics.hpp"
@@ -180,7 +181,7 @@ TEST(Simplify, MaterialAndFaceBordersStayWhereTheyAre) {
     TriangleMesh plane = test::plane(10, 10, 20, 20);
     Values<std::uint32_t>& labels = material ? plane.material : plane.face;
     std::array<double, 2> area{};
-    const auto label_area = [](const TriangleMesh& mesh, const std::vector<std::uint32_t>& of, std::uint32_t which) {
+    const auto label_area = [](const TriangleMesh& mesh, std::span<const std::uint32_t> of, std::uint32_t which) {
       double sum = 0;
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         if (of[t] == which)
