@@ -149,7 +149,7 @@ TEST(DamagedPicture, TiffOfAnUnknownCompression) {
 
 TEST(DamagedPicture, JpegThatEndsEarlyOrHasTooManyScans) {
   const TemporaryFolder folder;
-  write_color_image(folder / "a.jpg", {64, 64, std::vector<unsigned char>(3 * 64 * 64, 99)});
+  write_color_image(folder / "a.jpg", {64, 64, Values<unsigned char>(3 * 64 * 64, 99)});
   const std::string bytes = bytes_of(folder / "a.jpg");
   EXPECT_EQ(refusal(folder.write("half.jpg", bytes.substr(0, bytes.size() / 2))), "half.jpg: is truncated");
   EXPECT_EQ(refusal(folder.write("end.jpg", bytes.substr(0, bytes.size() - 2))), "end.jpg: is truncated");

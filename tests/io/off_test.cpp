@@ -35,7 +35,7 @@ class Off : public testing::Test {
 };
 
 TEST_F(Off, PolygonsCommentsAndMissingParts) {
-  const std::vector<Triangle> expected = {{0, 1, 2}, {0, 2, 3}};
+  const Values<Triangle> expected = {{0, 1, 2}, {0, 2, 3}};
   EXPECT_EQ(mesh("OFF\n4 1 4\n" + k_corners + "4 0 1 2 3\n").triangles, expected);
   EXPECT_EQ(mesh("# a\n4 1\n\n# b\n" + k_corners + " 4 0 1 2 3 # c").triangles, expected);
   EXPECT_EQ(mesh("OFF 4 1 4\r\n" + k_corners + "4 0 1\n2 3\n").triangles, expected);

@@ -129,7 +129,7 @@ TEST_F(PlyReader, TriangleStripsTurnAndRestart) {
   EXPECT_EQ(mesh(header("ascii", k_vertices + "element tristrips 1\nproperty list int int vertex_indices\n") +
                  k_corners + "9 0 1 3 2 2 -1 1 2 3\n")
                 .triangles,
-            (std::vector<Triangle>{{0, 1, 3}, {3, 1, 2}, {1, 2, 3}}));
+            (Values<Triangle>{{0, 1, 3}, {3, 1, 2}, {1, 2, 3}}));
 }
 
 TEST_F(PlyReader, FacesMayStandBeforeTheVertices) {

@@ -14,7 +14,9 @@ namespace papilla {
 namespace {
 
 GreyImage picture_of(const std::string& recipe, int size) {
-  return {size, size, test::rendered(recipe, size, RecipeLibrary::builtin()).values[Channel::main], 0.1, 32};
+  const RenderedTexture made = test::rendered(recipe, size, RecipeLibrary::builtin());
+  const std::vector<float>& grey = made.values[Channel::main];
+  return {size, size, {grey.begin(), grey.end()}, 0.1, 32};
 }
 
 // The octaves go below a texel. The finest repeat within the picture, so that it may be refused as periodic.
