@@ -14,7 +14,8 @@ namespace papilla {
 namespace {
 
 TEST(BorderEdges, BelongToOneTriangle) {
-  const auto borders = border_edges({{0, 1, 2}, {2, 1, 3}, {k_no_value, k_no_value, k_no_value}});
+  const std::vector<Triangle> triangles{{0, 1, 2}, {2, 1, 3}, {k_no_value, k_no_value, k_no_value}};
+  const auto borders = border_edges(triangles);
   ASSERT_EQ(borders.size(), 3U);
   EXPECT_EQ(borders[0], (std::array{true, false, true}));
   EXPECT_EQ(borders[1], (std::array{false, true, true}));

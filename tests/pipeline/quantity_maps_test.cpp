@@ -15,8 +15,8 @@ namespace {
 
 /// Maps of 64 x 4 texels of `pitch_mm`; value(u) of u in [0, 1).
 template <class Value>
-std::vector<float> along_u(Value&& value) {
-  std::vector<float> values;
+Values<float> along_u(Value&& value) {
+  Values<float> values;
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 64; ++x) values.push_back(static_cast<float>(value((x + 0.5) / 64)));
   return values;
