@@ -52,7 +52,7 @@ TEST(EnvironmentPicture, TravelsInAMaterial) {
 TEST(EnvironmentPicture, IsTwiceAsWideAsHighAndReducedByMeans) {
   const TemporaryFolder folder("papilla-environment");
   const auto path = folder.path() / "e.png";
-  write_color_image(path, {12, 12, std::vector<unsigned char>(3 * 144, 255)});
+  write_color_image(path, {12, 12, Values<unsigned char>(3 * 144, 255)});
   EXPECT_THROW(read_environment(path, 8), InvalidInput);
   ColorImage halves{16, 8, Values<unsigned char>(3 * 128, 0)};
   for (std::size_t i = 0; i < halves.pixels.size(); ++i) halves.pixels[i] = (i / 3) % 2 == 0 ? 255 : 0;

@@ -569,7 +569,7 @@ TEST_F(ObjectTexturesTest, AMaterialsEnvironmentIsEditedInPlace) {
   const std::filesystem::path input = folder_.path() / "in.glb", output = folder_.path() / "out.glb";
   write_scene(plates(2), input, {});
   const std::filesystem::path sky = folder_.path() / "sky.png";
-  write_color_image(sky, {4, 2, std::vector<unsigned char>(3 * 8, 200)});
+  write_color_image(sky, {4, 2, Values<unsigned char>(3 * 8, 200)});
   Materials rules;
   rules.materials["skin"].name = "skin";
   rules.materials["skin"].environment = sky;

@@ -256,7 +256,7 @@ TEST(Weather, TheNewReliefIsFelt) {
 
 /// Rust that grips on one half, dust that slips on the other: the hand feels either where it is.
 TEST(Weather, FrictionAndStiffnessAreFeltWhereTheyAre) {
-  Scene scene = waves({32, 32, std::vector<float>(32 * 32), 1000.0 / 32, 1000.0 / 32, true});
+  Scene scene = waves({32, 32, Values<float>(32 * 32), 1000.0 / 32, 1000.0 / 32, true});
   MaterialTag tag;
   tag.stiffness = 600;
   tag.static_friction = 0.5, tag.dynamic_friction = 0.4;
@@ -476,7 +476,7 @@ TEST(Weather, KnowsTheFilesItRestsOnAndPaintsAnewWhenAPictureChanges) {
   std::ofstream(folder.path() / "two.recipes") << "dots image|picpath=dots.png\n";
   const auto picture = [&](unsigned char grey, int side) {
     write_color_image(folder.path() / "dots.png",
-                      {side, side, std::vector<unsigned char>(3 * static_cast<std::size_t>(side * side), grey)});
+                      {side, side, Values<unsigned char>(3 * static_cast<std::size_t>(side * side), grey)});
   };
   picture(255, 1);
   WeatherConfig config;
