@@ -44,7 +44,7 @@ function onSecond(glb) {
     }
   for (const material of gltf.materials) {
     if (material.normalTexture) material.normalTexture.texCoord = 1;
-    for (const extension of Object.values(material.extensions ?? {})) if (extension.height) extension.height.texCoord = 1;
+    material.extras.haptic.height.texCoord = 1;
   }
   gltf.buffers[0].byteLength = at;
   let text = JSON.stringify(gltf);
