@@ -95,7 +95,7 @@ TEST(Neighbourhood, StaysSeamless) {
 }
 
 TEST(Neighbourhood, TheMeanOfASlantedPlaneIsThePlaneInAPictureThatIsNotSquare) {
-  // 21 rows make 11 blocks of two, or a little less.
+  // The radius is 4.2 texels: every block is one.
   RenderOptions render;
   render.width = 48, render.height = 21, render.channels = k_bump;
   const std::vector<float> mean =
