@@ -2,6 +2,7 @@
 #include "papilla/pipeline/grain.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -333,15 +334,16 @@ void finish_relief(const MaterialRule& rule, bool dimension, const std::string& 
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
   describe_relief(grain, {.dimension = dimension});
-  const EncodedHeight encoded = encode_height_png16(grain.relief);
+  EncodedHeight encoded;
+  const Stopwatch normal_clock;
+  oneapi::tbb::parallel_invoke([&] { encoded = encode_height_png16(grain.relief); },
+                               [&] { grain.normal_png = png("normal." + name, encode_png(normal_map(grain.relief))); });
+  grain.normal_map_seconds = normal_clock.seconds();
   grain.tag.height = make_height_tag(grain.relief, {.png = encoded.png,
                                                     .scale_mm = encoded.scale_mm,
                                                     .offset_mm = encoded.offset_mm,
                                                     .rms_mm = rms_height_mm(grain.relief)});
   grain.tag.height->metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
-  const Stopwatch normal_clock;
-  grain.normal_png = png("normal." + name, encode_png(normal_map(grain.relief)));
-  grain.normal_map_seconds = normal_clock.seconds();
   grain.tag.provenance = {std::string("papilla ") + version(), grain.height.method, "analyze height normal_map tag"};
   grain.height_png = png("height." + name, encoded.png);
 }

@@ -18,6 +18,7 @@
 #include "papilla/param/pack.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "remembered_plan.hpp"
+#include "unwrap_ahead.hpp"
 
 namespace papilla {
 
@@ -144,8 +145,24 @@ void require_uv_of_parts(const Scene& scene) {
     }
 }
 
-/// What unwrap_part() makes, without looking into a cache.
-UnwrappedPart make_uv(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
+/// The name of the part where the options mean some part by its name: identical parts of other names, and of scenes of
+/// another size, share results.
+std::string named_part(const PartContext& context, const MethodOptions& method) {
+  return named_parts(method).empty() ? std::string() : context.part;
+}
+
+/// flatten_part(), which other grain on the same surface leaves as it is.
+FlattenedPart remembered_map(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& method) {
+  const auto make = [&] { return flatten_part(mesh, context, method); };
+  const bool has_tile = context.tile_mm.x > 0 && context.tile_mm.y > 0;
+  auto [part, found] = remembered(method.cache, "map", use_until(method.deadline), make, mesh, method, context.up,
+                                  has_tile, named_part(context, method), reason_to_project(context));
+  if (found) part.segment_seconds = 0;
+  return std::move(part);
+}
+
+/// The first stages of unwrap_part(): the mesh welded or repaired, charts and uv.
+UnwrappedPart map_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
   UnwrappedPart result;
   const Stopwatch repair_clock;
   if (options.repair) {
@@ -161,7 +178,21 @@ UnwrappedPart make_uv(TriangleMesh& mesh, const PartContext& context, const Unwr
   result.repair_seconds = repair_clock.seconds();
   count_edges(mesh, result);
   const Stopwatch clock;
-  static_cast<FlattenedPart&>(result) = flatten_part(mesh, context, options.method);
+  static_cast<FlattenedPart&>(result) = remembered_map(mesh, context, options.method);
+  result.solve_seconds = clock.seconds() - result.segment_seconds;
+  return result;
+}
+
+/// The context of the mesh itself.
+PartContext context_of(const TriangleMesh& mesh, PartContext context) {
+  context.extent_mm = bounds_of(mesh).diagonal();
+  return context;
+}
+
+/// What unwrap_part() makes, without looking into a cache for the whole.
+UnwrappedPart make_uv(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
+  UnwrappedPart result = map_part(mesh, context, options);
+  const Stopwatch clock;
   if (options.method.method != UnwrapMethod::environment) {
     AlignedPhase aligned = align_phase(mesh, result.flattening, {.tile_mm = options.tile_mm});
     result.flattening.uv = std::move(aligned.uv);
@@ -169,7 +200,7 @@ UnwrappedPart make_uv(TriangleMesh& mesh, const PartContext& context, const Unwr
     result.seams =
         seam_visibility(mesh, result.flattening.uv, {.tile_mm = options.tile_mm, .grain_mm = grain_size(options)});
   }
-  result.solve_seconds = clock.seconds() - result.segment_seconds;
+  result.solve_seconds += clock.seconds();
   return result;
 }
 
@@ -191,17 +222,14 @@ PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
 }
 
 Digest uv_key(const TriangleMesh& mesh, PartContext context, const UnwrapOptions& options) {
-  context.extent_mm = bounds_of(mesh).diagonal();
-  // Identical parts of other names, and of scenes of another size, share a result.
+  context = context_of(mesh, std::move(context));
   const MethodOptions& method = options.method;
-  const std::string named = named_parts(method).empty() ? std::string() : context.part;
   return key_of("uv", mesh, options.repair, options.tile_mm, grain_size(options), method, context.up, context.tile_mm,
-                named, reason_to_project(context));
+                named_part(context, method), reason_to_project(context));
 }
 
 UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
-  PartContext own = context;
-  own.extent_mm = bounds_of(mesh).diagonal();
+  const PartContext own = context_of(mesh, context);
   const MethodOptions& method = options.method;
   if (method.cache == nullptr) return make_uv(mesh, own, options);
   const auto make = [&] {
@@ -214,6 +242,11 @@ UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const 
   mesh = std::move(result.mesh);
   if (found) result.part.repair_seconds = result.part.segment_seconds = result.part.solve_seconds = 0;
   return std::move(result.part);
+}
+
+void unwrap_ahead(TriangleMesh mesh, const PartContext& context, const UnwrapOptions& options) {
+  const PartContext own = context_of(mesh, context);
+  map_part(mesh, own, options);
 }
 
 UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const ProgressCallback& progress) {

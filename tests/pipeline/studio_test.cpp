@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/temporary_folder.hpp"
@@ -300,6 +301,28 @@ TEST(StudioScene, ASurfaceIsWhatABakeMakesOfIt) {
   ASSERT_EQ(surface.look->materials.size(), 1U);
   ASSERT_TRUE(surface.look->materials[0].normal_texture);
   EXPECT_EQ(surface.report.method, "planar");
+}
+
+TEST(StudioScene, MapsAreMadeBesideTheGrainAndStayForOtherGrain) {
+  const TemporaryFolder folder("papilla-studio-maps");
+  const StageCache cache{ContentStore(folder / "cache")};
+  BakeOptions options;
+  options.plan.sides.keep = true;
+  StudioScene plain(plates(), options, false);
+  options.unwrap.method.cache = &cache;
+  StudioScene studio(plates(), options, false);
+  std::size_t found = 0;
+  for (const char* size : {"[10, 12]", "[6, 9]"}) {
+    const std::string document = R"({"materials": {"grain": {"texture": "grain:spheres6", "size_mm": )" +
+                                 std::string(size) + R"(}}, "assign": [{"part": "a", "material": "grain"}]})";
+    const StudioPlan plan = studio.plan(document, "m.json", {});
+    const auto wish = std::find_if(plan.wishes.begin(), plan.wishes.end(), [](const auto& w) { return w.part == 0; });
+    EXPECT_EQ(studio.bake(plan, *wish).mesh.uv, plain.bake(plan, *wish).mesh.uv) << size;
+    const CacheCount maps = cache.counts().at("map");
+    EXPECT_EQ(maps.made, 1U) << size;
+    EXPECT_EQ(maps.found - found, found == 0 ? 1U : 2U) << size << ": before the bake, and by it";
+    found = maps.found;
+  }
 }
 
 TEST(StudioScene, KeysTellFilesAndScenesApart) {

@@ -184,16 +184,18 @@ bool is_monochrome(const ColorImage& image) {
     return Vec3{image.pixels[3 * i] / 255.0, image.pixels[3 * i + 1] / 255.0, image.pixels[3 * i + 2] / 255.0};
   };
   const std::size_t count = image.pixels.size() / 3;
+  const double share = 1.0 / static_cast<double>(count);
   Vec3 mean;
-  for (std::size_t i = 0; i < count; ++i) mean = mean + (1.0 / static_cast<double>(count)) * color(i);
-  // Principal axis by power iteration on the covariance, started along grey.
+  for (std::size_t i = 0; i < count; ++i) mean = mean + share * color(i);
+  Vec3 rows[3];  // Of the covariance.
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 d = color(i) - mean;
+    rows[0] = rows[0] + d.x * d, rows[1] = rows[1] + d.y * d, rows[2] = rows[2] + d.z * d;
+  }
+  // Principal axis by power iteration, started along grey.
   Vec3 axis{1, 1, 1};
   for (int round = 0; round < 8; ++round) {
-    Vec3 next;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 deviation = color(i) - mean;
-      next = next + dot(deviation, axis) * deviation;
-    }
+    const Vec3 next{dot(rows[0], axis), dot(rows[1], axis), dot(rows[2], axis)};
     if (!(norm(next) > 0)) return true;  // One colour.
     axis = normalized(next);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/studio/studio_scene.hpp"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -21,6 +23,7 @@
 #include "papilla/pipeline/studio/parse_materials.hpp"
 #include "studio/file_stamp.hpp"
 #include "studio/made_surface.hpp"
+#include "studio/map_ahead.hpp"
 
 namespace papilla {
 namespace {
@@ -293,14 +296,18 @@ BakeResult StudioScene::bake_piece(const StudioPlan& plan, const StudioWish& wis
   rules.assign.push_back(std::move(all));
   GrainMaker maker(rules, options_.library, options_.unwrap.method.deadline, options_.unwrap.method.cache);
   report_progress(progress, wish.label, 0);
+  const WholeScene whole{context_, in_place_};
+  Scene scene = piece(wish.part, wish.slot, wish.label);
   if (!rule.texture.empty()) {
-    Grain grain = grain_of(grain_key(parse_json(wish.rule, plan.rules.source)) + wish.files, rule);
+    Grain grain;
+    oneapi::tbb::parallel_invoke(
+        [&] { grain = grain_of(grain_key(parse_json(wish.rule, plan.rules.source)) + wish.files, rule); },
+        [&] { map_ahead(scene, rules, rule, options_, whole); });
     grain.solid = grain.solid && paints;
     maker.put(rule.name, std::move(grain));
   }
   report_progress(progress, wish.label, 0.5);
-  const WholeScene whole{context_, in_place_};
-  return bake_scene(piece(wish.part, wish.slot, wish.label), rules, options_, maker, progress, &whole);
+  return bake_scene(std::move(scene), rules, options_, maker, progress, &whole);
 }
 
 StudioSurface StudioScene::bake(const StudioPlan& plan, const StudioWish& wish, const ProgressCallback& progress) {
