@@ -49,10 +49,12 @@ class ChartField {
   };
   void cluster(const Piece& piece);
   void connect(const Piece& piece, const std::vector<std::array<double, 3>>& angles);
+  void order();
   void sum_up();
 
   std::vector<Index> node_;     ///< Per vertex; k_none on the border.
   std::vector<Index> centre_;   ///< A vertex of each node.
+  std::vector<int> order_;      ///< Of nodes, for elimination.
   std::vector<double> defect_;  ///< Per vertex.
   std::vector<double> charge_, area_, u_;
   std::vector<Link> links_;

@@ -14,13 +14,15 @@ using namespace param_detail;
 
 constexpr const char* k_function = "flatten_best";
 
-MultilevelOptions multilevel_options(const BestOptions& options) {
+/// @param area of the chart.
+MultilevelOptions multilevel_options(const BestOptions& options, double area) {
   MultilevelOptions result;
   result.max_iterations = options.max_iterations;
   result.tolerance = options.tolerance;
   result.newton_vertices = options.newton_vertices;
   result.deadline = options.deadline;
   result.energy_limit = options.energy_limit;
+  result.give_up_energy = 4 + options.give_up_excess_mm2 / area;
   return result;
 }
 
@@ -34,14 +36,17 @@ void param_detail::check_best_options(const BestOptions& options, std::string_vi
     refuse("max_iterations is " + std::to_string(options.max_iterations) + ", it must not be negative");
   if (!(options.energy_limit >= 4))
     refuse("energy_limit is " + std::to_string(options.energy_limit) + ", it must be at least 4");
+  if (!(options.give_up_excess_mm2 >= 0))
+    refuse("give_up_excess_mm2 is " + std::to_string(options.give_up_excess_mm2) + ", it must not be negative");
 }
 
 ChartMap param_detail::map_best(const ChartSurface& chart, const BestOptions& options, SharedProgress& mapped) {
   WorkProgress work(mapped, static_cast<double>(chart.triangles.size()));
-  MultilevelOptions multilevel = multilevel_options(options);
+  MultilevelOptions multilevel = multilevel_options(options, area_of(chart));
   multilevel.progress = [&](double fraction) { work.reach(fraction); };
   MultilevelMap solution = map_multilevel(to_unit(chart).surface, multilevel);
   ChartMap map{std::move(solution.uv), std::move(solution.failure), solution.stop, std::move(solution.trace)};
+  map.given_up = solution.given_up;
   // From per unit of area to the sum over the chart.
   for (TraceSample& sample : map.trace) sample.error *= area_of(chart);
   work.reach(1);

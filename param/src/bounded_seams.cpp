@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "papilla/core/error.hpp"
@@ -33,6 +34,9 @@ constexpr int k_generous = 1;
 
 /// States whose seams are shortened, of those with and without seams along features.
 constexpr std::size_t k_starts = 3;
+
+/// What is remembered of maps that break the bound, in triangles of all of them: 8 bytes each.
+constexpr std::size_t k_most_remembered = 20'000'000;
 
 /// As often the charts beyond the bound are halved where no seam cost is low enough.
 constexpr int k_halvings = 6;
@@ -88,20 +92,33 @@ class BoundKeeper {
   }
 
   bool try_cost(double seam_cost) {
-    if (const auto before = tried_.find({seam_cost, feature_seams_}); before != tried_.end()) return before->second;
+    Tries& tries = tried_[feature_seams_];
+    if (const auto before = tries.find(seam_cost); before != tries.end()) return before->second.keeps_bound;
     try {
       SeamState state = measured(mesh_, tools_.chart(seam_cost, feature_seams_), bound_);
       last_cost_mm_ = state.cost_mm;
-      return tried_[{seam_cost, feature_seams_}] = consider(std::move(state));
+      Try& tried = tries[seam_cost];
+      tried.seam = state.seam;
+      return tried.keeps_bound = consider(std::move(state));
     } catch (const Cancelled&) {  // its time was up
       if (!least_ || !deadline_.passed()) throw;
       return false;
     }
   }
 
+  /// Whether seams along features play no part, by the lowest cost that was tried with them.
+  bool is_same_without_features() {
+    if (tried_[true].empty()) return false;
+    const auto& [cost, with] = *tried_[true].begin();
+    try_cost(cost);
+    const auto without = tried_[false].find(cost);
+    return without != tried_[false].end() && without->second.seam == with.seam;
+  }
+
   /// Brackets the cost at which seams become too few. The costs are the same for all bounds, so that what is found
   /// for one serves others.
   void search() {
+    if (!feature_seams_ && is_same_without_features()) return;
     const double guess = std::clamp(k_first * (bound_.most - 4), k_step * k_step * k_least_cost, k_most_cost);
     double low = std::pow(k_step, std::round(std::log(guess) / std::log(k_step))), high = low;
     if (try_cost(low)) {
@@ -119,13 +136,19 @@ class BoundKeeper {
         low /= k_step;
       } while (!try_cost(low));
     }
-    if (!deadline_.passed()) try_cost(std::sqrt(low * high));
+    if (!deadline_.passed() && !leave_same_seams(low, high)) try_cost(std::sqrt(low * high));
     // Of too many seams, others can be closed than are missing where there are fewer.
     for (int i = 0; i < k_generous && low / k_step >= k_least_cost && !deadline_.passed(); ++i) try_cost(low /= k_step);
   }
 
-  SeamState map(const ChartSet& charts) {
-    ChartedMap charted = tools_.map(charts);
+  bool leave_same_seams(double low, double high) {
+    const Tries& tries = tried_[feature_seams_];
+    const auto a = tries.find(low), b = tries.find(high);
+    return a != tries.end() && b != tries.end() && a->second.seam == b->second.seam;
+  }
+
+  SeamState map(const ChartSet& charts, double most_excess_mm2 = k_infinity) {
+    ChartedMap charted = tools_.map(charts, most_excess_mm2);
     std::vector<std::uint8_t> without_map;
     if (!charted.flattening.notes.empty()) {
       std::vector<std::uint8_t> fails(charts.count, 0);
@@ -169,20 +192,31 @@ class BoundKeeper {
     kept_.clear();
   }
 
+  /// What shortening tries, once.
+  SeamState try_seams(const std::vector<std::uint8_t>& seam) {
+    std::vector<bool> key(seam.begin(), seam.end());
+    if (const auto before = broken_.find(key); before != broken_.end()) return before->second;
+    const double most = bound_.percentile ? k_infinity : (bound_.most + k_bound_slack - 4) * mesh_.area;
+    SeamState state = map(charts_between(mesh_, seam), most);
+    record(state);
+    if ((state.valid && keeps(state)) || (broken_.size() + 1) * state.excess.size() > k_most_remembered) return state;
+    SeamState known = state;
+    known.charted = {}, known.seam = {};
+    broken_.emplace(std::move(key), std::move(known));
+    return state;
+  }
+
   /// The starts with their seams shortened: the cheapest that comes of them.
   SeamState shortest() {
-    const MapCharts map_charts = [this](const ChartSet& charts) {
-      SeamState state = map(charts);
-      record(state);
-      return state;
-    };
+    const MapSeams map_seams = [this](const std::vector<std::uint8_t>& seam) { return try_seams(seam); };
     std::optional<SeamState> best;
     for (SeamState& start : starts_) {
+      std::vector<double> doubt(mesh_.opposite.size(), 1);
       SeamState state = std::move(start);
       for (double before = k_infinity; state.cost_mm < k_worthwhile * before;) {
         before = state.cost_mm;
-        state = shorten_seams(mesh_, std::move(state), bound_, map_charts, deadline_);
-        state = straighten_seams(mesh_, std::move(state), bound_, map_charts, deadline_);
+        state = shorten_seams(mesh_, std::move(state), bound_, map_seams, doubt, deadline_);
+        state = straighten_seams(mesh_, std::move(state), bound_, map_seams, deadline_);
       }
       if (!best || state.cost_mm < best->cost_mm) best = std::move(state);
     }
@@ -199,7 +233,13 @@ class BoundKeeper {
   std::vector<SeamState> kept_, starts_;
   std::optional<SeamState> least_;  ///< Of the least distortion.
   double last_cost_mm_ = 0;
-  std::map<std::pair<double, bool>, bool> tried_;  ///< Seam costs, with features and without: do they keep the bound?
+  struct Try {
+    bool keeps_bound = false;
+    std::vector<std::uint8_t> seam;
+  };
+  using Tries = std::map<double, Try>;                       ///< By seam cost.
+  std::map<bool, Tries> tried_;                              ///< Without seams along features, and with.
+  std::unordered_map<std::vector<bool>, SeamState> broken_;  ///< Maps that are no result, by their seams; without uv.
   BoundedSeams result_;
 };
 

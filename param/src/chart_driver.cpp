@@ -38,7 +38,8 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
     return result;
   }
   if (!map.keep_place) normalise(chart, options.up, options.scale_to_area, map.uv);
-  if (!options.allow_flips) result.failure = map_failure(chart, map.uv);
+  result.given_up = map.given_up;
+  if (!options.allow_flips && !map.given_up) result.failure = map_failure(chart, map.uv);
   if (!result.failure.empty()) return result;
   result.stop = map.stop;
   result.trace = std::move(map.trace);

@@ -30,6 +30,7 @@ struct ChartMap {
   Trace trace;               ///< Error: what the method minimises, summed over the chart; seconds since its start.
   bool keep_place = false;   ///< Do not scale and turn: the caller said where it goes.
   MethodChoice choice = {};  ///< Of methods that choose.
+  bool given_up = false;     ///< It is of no use, and need not be injective.
 };
 
 using ChartMethod = std::function<ChartMap(const ChartSurface&)>;

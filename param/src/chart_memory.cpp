@@ -26,7 +26,7 @@ bool ChartMemory::Maps::recall(std::span<const Index> triangles, const param_det
 }
 
 void ChartMemory::Maps::keep(std::span<const Index> triangles, param_detail::MappedChart chart) {
-  if (!chart.failure.empty() || triangles.empty()) return;
+  if (!chart.failure.empty() || chart.given_up || triangles.empty()) return;
   by_first_triangle[triangles.front()] = {{triangles.begin(), triangles.end()}, std::move(chart)};
 }
 

@@ -45,6 +45,10 @@ constexpr double k_first_ratio = 0.2;
 /// promises; more, and the energy bends less than the model, whose next steps are too short as well.
 constexpr double k_most_gain = 0.6;
 
+/// The energy falls by this many slopes of a Newton step in all, at most. A quadratic falls by half of one; what a
+/// projected Hessian bends too much came to less than two.
+constexpr double k_most_slopes = 4;
+
 constexpr int k_halvings = 40;
 
 /// A step that could be this much longer is tried so; by how much at once at most.
@@ -411,6 +415,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     }
     const std::vector<Vec2> direction = direct(gradient, uv, pairs, experience);
     const double slope = dot(gradient, direction), before = result.energy;
+    if (before + k_most_slopes * slope > options.give_up_energy) break;
     ++result.iterations;
     Step taken;
     if (slope < 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct DescentOptions {
   bool of_logarithm = false;
   bool leave_when_blocked = false;  ///< Stop, as stalled, after a step that the barrier all but prevented.
   bool foresee = false;             ///< Stop also when what full steps have still to gain is below the tolerance.
+  /// Stop, as at the limit of iterations, when the energy will hardly come below this.
+  double give_up_energy = std::numeric_limits<double>::infinity();
 };
 
 struct DescentResult {

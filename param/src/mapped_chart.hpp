@@ -22,6 +22,7 @@ struct MappedChart {
   std::vector<Vec2> refused;  ///< A valid map of too much distortion.
   std::string instead;        ///< What the chart got then.
   bool wrong_topology = false;
+  bool given_up = false;  ///< ChartMap::given_up.
   double area = 0;
   StopReason stop = StopReason::direct;
   Trace trace;
@@ -42,7 +43,7 @@ struct ChartMemory::Maps {
   bool recall(std::span<const Index> triangles, const param_detail::ChartSurface& surface, double energy_limit,
               param_detail::MappedChart& chart) const;
 
-  /// Does nothing for charts without a map by the method.
+  /// Does nothing for charts without a map by the method, or one that was given up.
   void keep(std::span<const Index> triangles, param_detail::MappedChart chart);
 };
 

@@ -31,6 +31,12 @@ constexpr std::size_t k_guarded_growth = 3;
 constexpr double k_least_area = 1e-3;
 constexpr double k_sliver = 1e-4;
 
+/// A level tells what the map will come to from this many vertices and this part of all on: what its mean energy is
+/// above 4, the finest one's was seen to be a third of at least.
+constexpr std::size_t k_telling_vertices = 100;
+constexpr double k_telling_part = 1.0 / 64;
+constexpr double k_hopeless = 3;
+
 /// Of levels that are only a step on the way.
 constexpr double k_coarse_tolerance = 1e-2;
 constexpr int k_coarse_iterations = 100;
@@ -301,6 +307,13 @@ class Multilevel {
       if (options_.deadline.passed() && hierarchy_.removed_count() > 0) return fail(k_no_time);
       minimise(level);
       if (first && is_deep() && !start_as_tube(level)) start_finer(level, left_alone.front());
+      if (is_hopeless(level)) {
+        if (leave_unfinished(level)) return true;
+        gives_up_ = false;
+        while (hierarchy_.removed_count() < base_removed_) hierarchy_.remove_again();
+        return run_from_current();
+      }
+      if (gives_up_ && hierarchy_.removed_count() == 0 && is_above_limit(level)) return leave(level);
       std::string why = "the chart overlaps itself";
       if (is_simple(level)) {
         store_uv(level);
@@ -321,6 +334,39 @@ class Multilevel {
       store_uv(level);
     }
     result_.uv = uv_;
+    return true;
+  }
+
+  bool is_above_limit(const MapLevel& level) const { return energy_of(level) > options_.give_up_energy * level.area; }
+
+  /// By a level that is coarser than the chart.
+  bool is_hopeless(const MapLevel& level) const {
+    const auto all = static_cast<double>(hierarchy_.removed_count() + hierarchy_.vertex_count());
+    const double telling = std::max(static_cast<double>(k_telling_vertices), k_telling_part * all);
+    return gives_up_ && hierarchy_.removed_count() > 0 && static_cast<double>(level.vertices.size()) >= telling &&
+           mean_energy_ - 4 > k_hopeless * (options_.give_up_energy - 4);
+  }
+
+  /// Puts the vertices that are missing to where their rings want them, whatever the border does.
+  /// @return false when that is not possible, or gives a map that is not to be given up.
+  bool leave_unfinished(MapLevel& level) {
+    store_uv(level);
+    guarded_ = false;
+    guard_.reset();
+    const LeastArea least = least_area(true);
+    while (hierarchy_.removed_count() > 0)
+      if (!insert_next(least)) return false;
+    level = make_level();
+    relax(level, k_guarded_sweeps, k_relax_tolerance, false);
+    restore_slivers(level, false);
+    add_trace_sample(level, true);
+    return is_above_limit(level) && leave(level);
+  }
+
+  bool leave(const MapLevel& level) {
+    store_uv(level);
+    result_.uv = uv_;
+    result_.given_up = true;
     return true;
   }
 
@@ -383,6 +429,7 @@ class Multilevel {
     if (is_tube_) descent.least_iterations = std::min(k_tube_iterations, descent.max_iterations);
     descent.of_logarithm = !guarded_;  // the barrier counts in the slope alone
     descent.foresee = last;
+    if (last && gives_up_) descent.give_up_energy = options_.give_up_energy * level.area;
     for (int i = 0; i <= k_most_unblocked; ++i) {
       if (i > 0) relax(level, sweeps, k_relax_tolerance, guarded_);
       descent.leave_when_blocked = i < k_most_unblocked;
@@ -472,7 +519,8 @@ class Multilevel {
   std::size_t base_removed_;  ///< What is removed where the map began.
   std::vector<Vec2> uv_;
   double least_edge_;
-  bool is_tube_ = false;    ///< The level began as one.
+  bool is_tube_ = false;  ///< The level began as one.
+  bool gives_up_ = std::isfinite(options_.give_up_energy);
   bool guarded_ = false;    ///< The border is kept from running into itself.
   double mean_energy_ = 0;  ///< Per area, of the level before.
   std::vector<RingEdge> ring_;

@@ -21,11 +21,14 @@ struct MultilevelOptions {
   Deadline deadline;                                              ///< A chart without a map by then is a failure.
   bool only_when_rough = false;                                   ///< No iterations on a map that is smooth already.
   double energy_limit = std::numeric_limits<double>::infinity();  ///< A map with a larger mean energy is a failure.
+  /// A map whose mean energy will hardly come below this is left unfinished: above it, perhaps overlapping itself.
+  double give_up_energy = std::numeric_limits<double>::infinity();
 };
 
 struct MultilevelMap {
   std::vector<Vec2> uv;  ///< Per vertex; when `failure` says why there is none, empty, unless energy_limit refuses it.
   std::string failure;
+  bool given_up = false;  ///< By give_up_energy: uv is above it, and need not be injective.
   StopReason stop = StopReason::converged;
   Trace trace;  ///< Error: mean symmetric Dirichlet energy of the whole chart, from the first map of it on.
 };

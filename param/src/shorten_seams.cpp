@@ -48,14 +48,9 @@ using Choices = std::vector<Closing>;
 
 class Shortener {
  public:
-  Shortener(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapCharts& map,
-            const Deadline& deadline)
-      : mesh_(mesh),
-        state_(std::move(state)),
-        bound_(bound),
-        map_(map),
-        deadline_(deadline),
-        doubt_(mesh.opposite.size(), 1) {}
+  Shortener(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
+            std::vector<double>& doubt, const Deadline& deadline)
+      : mesh_(mesh), state_(std::move(state)), bound_(bound), map_(map), deadline_(deadline), doubt_(doubt) {}
 
   SeamState run() {
     double share = k_share;
@@ -240,7 +235,7 @@ class Shortener {
         const Index h = paths[c.path].halfedges[i];
         seam[h] = seam[mesh_.opposite[h]] = 0;
       }
-    return map_(charts_between(mesh_, seam));
+    return map_(seam);
   }
 
   /// Compares what the energy rose by around every closing with what was foreseen.
@@ -272,16 +267,16 @@ class Shortener {
   const SeamMesh& mesh_;
   SeamState state_;
   const DistortionBound& bound_;
-  const MapCharts& map_;
+  const MapSeams& map_;
   const Deadline& deadline_;
-  std::vector<double> doubt_;  ///< Per half-edge: what closing there costs over what is foreseen.
+  std::vector<double>& doubt_;
 };
 
 }  // namespace
 
-SeamState shorten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapCharts& map,
-                        const Deadline& deadline) {
-  return Shortener(mesh, std::move(state), bound, map, deadline).run();
+SeamState shorten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
+                        std::vector<double>& doubt, const Deadline& deadline) {
+  return Shortener(mesh, std::move(state), bound, map, doubt, deadline).run();
 }
 
 }  // namespace papilla::param_detail

@@ -129,7 +129,7 @@ std::vector<NewWay> new_ways(const SeamMesh& mesh, const SeamState& state) {
 
 }  // namespace
 
-SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapCharts& map,
+SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
                            const Deadline& deadline) {
   std::vector<NewWay> ways = new_ways(mesh, state);
   for (int i = 0; i < k_attempts && !ways.empty() && !deadline.passed(); ++i) {
@@ -138,7 +138,7 @@ SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const Distorti
       for (const Index h : way.before) seam[h] = seam[mesh.opposite[h]] = 0;
     for (const NewWay& way : ways)
       for (const Index h : way.after) seam[h] = seam[mesh.opposite[h]] = 1;
-    SeamState next = map(charts_between(mesh, seam));
+    SeamState next = map(seam);
     if (next.valid && next.distortion <= bound.most + k_bound_slack && next.cost_mm < state.cost_mm) return next;
     std::vector<std::vector<Index>> places;
     for (const NewWay& way : ways) {

@@ -205,9 +205,11 @@ Flattening chart_within_bound(const TriangleMesh& mesh, const MethodOptions& o, 
     own.segmentation.seam_cost = seam_cost;
     return charted(chart_and_map(mesh, own, context, memory, part));
   };
-  tools.map = [&](const ChartSet& charts) {
+  tools.map = [&](const ChartSet& charts, double most_excess_mm2) {
     part.choices.clear();
-    return charted(map_or_halve(mesh, charts, own, 0, memory, part.choices));
+    MethodOptions tried = own;
+    tried.best.give_up_excess_mm2 = tried.automatic.best.give_up_excess_mm2 = most_excess_mm2;
+    return charted(map_or_halve(mesh, charts, std::move(tried), 0, memory, part.choices));
   };
   tools.halve = [&](const ChartSet& charts, std::span<const std::uint32_t> numbers) {
     if (!memory.halver) memory.halver.emplace(mesh);

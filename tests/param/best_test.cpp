@@ -267,6 +267,34 @@ TEST(Best, ChartsBeyondTheEnergyLimitCountAsUnmapped) {
   EXPECT_EQ(refused.uv.values, flatten_best(bowl, test::one_chart(bowl), options).uv.values) << "the refused map";
 }
 
+TEST(Best, WhatIsOfNoUseIsLeftUnfinished) {
+  const TriangleMesh bowl = test::hemisphere_mesh(40, 96);
+  const ChartSet chart = test::one_chart(bowl);
+  const Flattening finished = flatten_best(bowl, chart);
+  double area = 0;
+  for (const Triangle& t : bowl.triangles)
+    area += 0.5 * norm(cross(bowl.positions[t[1]] - bowl.positions[t[0]], bowl.positions[t[2]] - bowl.positions[t[0]]));
+  const double energy = finished.trace.back().error, excess = (energy - 4) * area;
+  BestOptions options;
+  options.give_up_excess_mm2 = 1.01 * excess;
+  EXPECT_EQ(flatten_best(bowl, chart, options).uv.values, finished.uv.values);
+  ChartMemory memory;
+  options.memory = &memory;
+  for (const double part : {0.9, 0.1}) {  // By the finest level, and by one that is coarser.
+    options.give_up_excess_mm2 = part * excess;
+    const Flattening left = flatten_best(bowl, chart, options);
+    EXPECT_TRUE(left.notes.empty());
+    EXPECT_GT(left.trace.back().error, energy) << part;
+    EXPECT_LT(left.trace.back().error, 1.5 * energy) << part;
+    EXPECT_EQ(measure_distortion(bowl, left.uv, {}).flipped, 0u) << part;
+    EXPECT_LT(left.trace.size(), finished.trace.size()) << part;
+  }
+  options.give_up_excess_mm2 = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(flatten_best(bowl, chart, options).uv.values, finished.uv.values) << "what was left is not remembered";
+  options.give_up_excess_mm2 = -1;
+  EXPECT_THROW(flatten_best(bowl, chart, options), InvalidInput);
+}
+
 TEST(Best, BadInputIsNamed) {
   EXPECT_TRUE(flatten_best({}, {}).uv.empty());
   TriangleMesh mesh = test::plane(2, 2, 2, 2);

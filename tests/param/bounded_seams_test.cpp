@@ -37,6 +37,7 @@ TEST(BoundedSeams, TheMeanIsByArea) {
 }
 
 /// Tools for a flat plate: `cuts` decides whether it is cut in two, which it need not be.
+/// Along features the cut is in the middle, else at three quarters of the left half.
 SeamTools plate_tools(const TriangleMesh& mesh, int& maps) {
   const auto map = [&mesh, &maps](const ChartSet& charts) {
     ++maps;
@@ -54,12 +55,13 @@ SeamTools plate_tools(const TriangleMesh& mesh, int& maps) {
     return charted;
   };
   SeamTools tools;
-  tools.map = map;
-  tools.chart = [&mesh, map](double, bool) {
+  tools.map = [map](const ChartSet& charts, double) { return map(charts); };
+  tools.chart = [&mesh, map](double, bool along_features) {
     ChartSet charts;
     charts.count = 2;
+    const double cut = along_features ? 20 : 15;
     for (const Triangle& t : mesh.triangles)
-      charts.of_triangle.push_back(mesh.positions[t[0]].x + mesh.positions[t[1]].x + mesh.positions[t[2]].x > 60);
+      charts.of_triangle.push_back(mesh.positions[t[0]].x + mesh.positions[t[1]].x + mesh.positions[t[2]].x > 3 * cut);
     return map(charts);
   };
   tools.halve = [](const ChartSet& charts, std::span<const std::uint32_t>) { return charts; };
@@ -77,6 +79,29 @@ TEST(BoundedSeams, ChartsThatFitAreJoined) {
   EXPECT_EQ(result.seam_cost_mm, 0);
   EXPECT_EQ(result.trace.size(), static_cast<std::size_t>(maps));
   EXPECT_NEAR(result.trace.front().seam_mm, 10, 1e-12);
+}
+
+TEST(BoundedSeams, WhatBrokeTheBoundIsNotMappedAgain) {
+  const TriangleMesh mesh = test::plane(40, 10, 8, 6);
+  int maps = 0;
+  SeamTools tools = plate_tools(mesh, maps);  // Of two cuts: without, both leave the same.
+  const auto map = tools.map;
+  std::vector<ChartSet> tried;
+  tools.map = [&](const ChartSet& charts, double most_excess_mm2) {
+    EXPECT_NEAR(most_excess_mm2, 0.05 * 400, 1e-3);
+    for (const ChartSet& before : tried)
+      EXPECT_FALSE(before.of_triangle == charts.of_triangle && before.cuts == charts.cuts);
+    tried.push_back(charts);
+    ChartedMap charted = map(charts, most_excess_mm2);
+    if (charts.count == 1)
+      for (Vec2& p : charted.flattening.uv.values) p.y *= 2;
+    return charted;
+  };
+  const BoundedSeams result = keep_bound(mesh, {4.05, {}}, tools);
+  EXPECT_FALSE(tried.empty());
+  EXPECT_TRUE(result.kept);
+  EXPECT_EQ(result.charted.flattening.charts.count, 2u);
+  EXPECT_EQ(result.distortion, 4);
 }
 
 TEST(BoundedSeams, WhatCantBeIsRefused) {

@@ -26,6 +26,9 @@ struct BestOptions {
   ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
   /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.
   double energy_limit = std::numeric_limits<double>::infinity();
+  /// A chart whose E - 4 ΣA [mm²] will hardly come below this is left unfinished: above it, perhaps overlapping itself.
+  /// For callers that try charts and have no use for such.
+  double give_up_excess_mm2 = std::numeric_limits<double>::infinity();
   bool fall_back = true;        ///< Project charts that are no disk, with a note; false: throw.
   TriplanarOptions projection;  ///< Of the fallback; its `up` is taken from here.
 };

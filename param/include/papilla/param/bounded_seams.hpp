@@ -37,7 +37,9 @@ struct SeamTools {
   /// Charts of the whole mesh for a seam cost, with seams along features or only where they are needed, and their map.
   /// Throws Cancelled when the deadline ends it.
   std::function<ChartedMap(double seam_cost, bool feature_seams)> chart;
-  std::function<ChartedMap(const ChartSet&)> map;  ///< The map of given charts; notes where one has none.
+  /// The map of given charts; notes where one has none. It is of no use where Σ A (e - 4) is more than `most_excess_mm2`
+  /// in a chart: that may then be mapped in any way in which it is.
+  std::function<ChartedMap(const ChartSet&, double most_excess_mm2)> map;
   /// Charts with the named ones cut in two.
   std::function<ChartSet(const ChartSet&, std::span<const std::uint32_t>)> halve;
   std::vector<double> seam_costs;  ///< Per half-edge 3 t + k: what a seam there counts [mm]; not negative.
@@ -75,11 +77,11 @@ inline constexpr double k_bound_slack = 1e-6;
 /// save most per energy for the energy that is left; the charts are mapped anew, and what came out worse than foreseen
 /// around a place counts as dearer there from then on. A round that breaks the bound is taken back and made with half
 /// of the energy. 3. Stretches between two places where seams meet or end are laid along the cheapest way beside the
-/// old one while the bound allows it; then rounds begin again.
+/// old one while the bound allows it; then rounds begin again. Seams that broke the bound once are not mapped again.
 ///
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
-/// seams there are: a local search. Cost: 15 to 100 maps, most often 30. Deterministic when the tools are.
+/// seams there are: a local search. Cost: 10 to 100 maps, most often 30. Deterministic when the tools are.
 /// @throws InvalidInput for a bound out of range or costs that do not fit the mesh; what the tools throw.
 BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
                         Deadline deadline = {}, const ProgressCallback& progress = {});
