@@ -37,8 +37,8 @@ struct SeamTools {
   /// Charts of the whole mesh for a seam cost, with seams along features or only where they are needed, and their map.
   /// Throws Cancelled when the deadline ends it.
   std::function<ChartedMap(double seam_cost, bool feature_seams)> chart;
-  /// The map of given charts; notes where one has none. It is of no use where Σ A (e - 4) is more than `most_excess_mm2`
-  /// in a chart: that may then be mapped in any way in which it is.
+  /// The map of given charts; notes where one has none. It is of no use where Σ A (e - 4) is more than
+  /// `most_excess_mm2` in a chart: that may then be mapped in any way in which it is.
   std::function<ChartedMap(const ChartSet&, double most_excess_mm2)> map;
   /// Charts with the named ones cut in two.
   std::function<ChartSet(const ChartSet&, std::span<const std::uint32_t>)> halve;
