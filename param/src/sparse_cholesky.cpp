@@ -252,8 +252,8 @@ constexpr Index k_leaf = 24;
 constexpr std::size_t k_parallel_work = 500'000;
 
 /// Panels are kept in blocks of about this size: of blocks that the system has to clear there are then none for small
-/// charts, one after the other.
-constexpr std::size_t k_block_bytes = std::size_t{2} << 20;
+/// charts, one after the other. Those of large charts are large arrays.
+constexpr std::size_t k_block_bytes = std::size_t{2} << 20, k_large_block_bytes = 8 * k_block_bytes;
 
 /// Columns of an update are cleared from the first row of a block of so many on: dense tiles write there.
 constexpr std::size_t k_clear_columns = 4;
@@ -319,11 +319,14 @@ void SparseCholesky<Scalar>::make_panels() {
   const std::vector<Front>& fronts = dissection_.fronts;
   const auto size = [&](std::size_t f) { return width_ * fronts[f].size() * width_ * fronts[f].own(); };
   panel_.resize(fronts.size());
+  std::size_t bytes = 0;
+  for (std::size_t f = 0; f < fronts.size(); ++f) bytes += size(f) * sizeof(Scalar);
+  const std::size_t most = bytes > k_large_block_bytes ? k_large_block_bytes : k_block_bytes;
   for (std::size_t begin = 0, end = 0; begin < fronts.size(); begin = end) {
     std::size_t together = 0;
     do together += size(end++);
-    while (end < fronts.size() && (together + size(end)) * sizeof(Scalar) <= k_block_bytes);
-    Scalar* next = blocks_.emplace_back(std::make_unique_for_overwrite<Scalar[]>(together + k_dense_slack)).get();
+    while (end < fronts.size() && (together + size(end)) * sizeof(Scalar) <= most);
+    Scalar* next = blocks_.emplace_back(make_large_array<Scalar>(together + k_dense_slack)).get();
     for (std::size_t f = begin; f < end; ++f) panel_[f] = std::exchange(next, next + size(f));
     std::fill_n(next, k_dense_slack, Scalar(0));
   }
@@ -367,10 +370,9 @@ std::size_t SparseCholesky<Scalar>::factor(const FillElement& fill) {
 
 template <class Scalar>
 typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate_alone(Index f, const FillElement& fill,
-                                                                                std::unique_ptr<Scalar[]>& room) {
+                                                                                LargeArray<Scalar>& room) {
   const Need& need = needs_[f];
-  if (!room)
-    room = std::make_unique_for_overwrite<Scalar[]>(need.own + need.other + largest_element_ * largest_element_);
+  if (!room) room = make_large_array<Scalar>(need.own + need.other + largest_element_ * largest_element_);
   return eliminate(f, fill, {room.get(), room.get() + need.own, room.get() + need.own + need.other});
 }
 
@@ -379,7 +381,7 @@ typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index 
                                                                           const Stacks& stacks) {
   const Front& front = dissection_.fronts[f];
   Update left, right;
-  std::unique_ptr<Scalar[]> room;  // of a right branch that runs at the same time as the left one
+  LargeArray<Scalar> room;  // of a right branch that runs at the same time as the left one
   if (is_parallel(front)) {
     oneapi::tbb::parallel_invoke(
         [&] {

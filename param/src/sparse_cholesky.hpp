@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "large_array.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
@@ -96,7 +97,7 @@ class SparseCholesky {
 
   Update eliminate(Index front, const FillElement& fill, const Stacks& stacks);
   /// @param room workspace of the front and those below; allocated when it is empty.
-  Update eliminate_alone(Index front, const FillElement& fill, std::unique_ptr<Scalar[]>& room);
+  Update eliminate_alone(Index front, const FillElement& fill, LargeArray<Scalar>& room);
 
   template <std::size_t Width>
   void add_elements(const Front& front, const FillElement& fill, Scalar* matrix, Scalar* panel,
@@ -109,10 +110,10 @@ class SparseCholesky {
   Elements elements_;
   Dissection dissection_;
   std::vector<Index> place_;  ///< Of each element's members in their front: own unknowns, then rows.
-  std::vector<std::unique_ptr<Scalar[]>> blocks_;
+  std::vector<LargeArray<Scalar>> blocks_;
   std::vector<Scalar*> panel_;           ///< Where each front's columns begin in its block.
   std::vector<Need> needs_;              ///< Per front.
-  std::unique_ptr<Scalar[]> workspace_;  ///< Kept for the next matrix.
+  LargeArray<Scalar> workspace_;         ///< Kept for the next matrix.
   std::vector<std::size_t> bad_pivots_;  ///< Per front.
 };
 
