@@ -24,6 +24,10 @@ using namespace param_detail;
 constexpr double k_step = 4, k_first = 0.6;
 constexpr double k_least_cost = 1e-7, k_most_cost = 64;
 
+/// So many lower costs in a row that leave this part of D - 4 or more: charts are no longer cut where D comes from.
+constexpr int k_most_idle = 3;
+constexpr double k_idle = 0.99;
+
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 /// Closing and straightening go on while they bring the seams below this part of what they were.
@@ -38,8 +42,10 @@ constexpr std::size_t k_starts = 3;
 /// What is remembered of maps that break the bound, in triangles of all of them: 8 bytes each.
 constexpr std::size_t k_most_remembered = 20'000'000;
 
-/// As often the charts beyond the bound are halved where no seam cost is low enough.
-constexpr int k_halvings = 6;
+/// As often charts are halved where no seam cost is low enough, and the part of its energy that a chart is thought to
+/// lose by that.
+constexpr int k_halvings = 12;
+constexpr double k_halved = 0.5;
 
 void check(const DistortionBound& bound) {
   const auto refuse = [](const std::string& what) { throw InvalidInput("keep_bound: " + what); };
@@ -96,7 +102,7 @@ class BoundKeeper {
     if (const auto before = tries.find(seam_cost); before != tries.end()) return before->second.keeps_bound;
     try {
       SeamState state = measured(mesh_, tools_.chart(seam_cost, feature_seams_), bound_);
-      last_cost_mm_ = state.cost_mm;
+      last_cost_mm_ = state.cost_mm, last_distortion_ = state.distortion;
       Try& tried = tries[seam_cost];
       tried.seam = state.seam;
       return tried.keeps_bound = consider(std::move(state));
@@ -130,11 +136,15 @@ class BoundKeeper {
         low = high;
       }
     } else {
+      int idle = 0;
       do {
-        if (low / k_step < k_least_cost || deadline_.passed()) return;
+        if (low / k_step < k_least_cost || idle == k_most_idle || deadline_.passed()) return;
         high = low;
         low /= k_step;
-      } while (!try_cost(low));
+        const double before = last_distortion_;
+        if (try_cost(low)) break;
+        idle = last_distortion_ - 4 < k_idle * (before - 4) ? 0 : idle + 1;
+      } while (true);
     }
     if (!deadline_.passed() && !leave_same_seams(low, high)) try_cost(std::sqrt(low * high));
     // Of too many seams, others can be closed than are missing where there are fewer.
@@ -160,21 +170,34 @@ class BoundKeeper {
     return state;
   }
 
-  /// Cuts the charts that are beyond the bound.
+  /// Of charts beyond the bound, those of most energy: as many as will bring the mean down to it.
+  std::vector<std::uint32_t> worth_halving(const SeamState& state) const {
+    const ChartSet& charts = state.charted.flattening.charts;
+    std::vector<double> area(charts.count, 0), excess(charts.count, 0);
+    for (std::size_t t = 0; t < charts.of_triangle.size(); ++t) {
+      area[charts.of_triangle[t]] += mesh_.rest[t].area;
+      excess[charts.of_triangle[t]] += state.excess[t];
+    }
+    const double most = bound_.most - 4 + k_bound_slack;
+    std::vector<std::uint32_t> worst;
+    for (std::uint32_t c = 0; c < charts.count; ++c)
+      if (!(excess[c] <= most * area[c])) worst.push_back(c);
+    std::stable_sort(worst.begin(), worst.end(), [&](auto a, auto b) { return excess[a] > excess[b]; });
+    if (bound_.percentile) return worst;
+    double left = state.energy - most * mesh_.area;
+    std::size_t count = 0;
+    while (count < worst.size() && left > 0) left -= k_halved * excess[worst[count++]];
+    worst.resize(count);
+    return worst;
+  }
+
+  /// Cuts charts until the bound is kept.
   void halve() {
     SeamState state = *least_;
     for (int i = 0; i < k_halvings && !deadline_.passed(); ++i) {
-      const ChartSet& charts = state.charted.flattening.charts;
-      std::vector<double> area(charts.count, 0), excess(charts.count, 0);
-      for (std::size_t t = 0; t < charts.of_triangle.size(); ++t) {
-        area[charts.of_triangle[t]] += mesh_.rest[t].area;
-        excess[charts.of_triangle[t]] += state.excess[t];
-      }
-      std::vector<std::uint32_t> worst;
-      for (std::uint32_t c = 0; c < charts.count; ++c)
-        if (!(excess[c] <= (bound_.most - 4 + k_bound_slack) * area[c])) worst.push_back(c);
+      const std::vector<std::uint32_t> worst = worth_halving(state);
       if (worst.empty()) return;
-      state = map(tools_.halve(charts, worst));
+      state = map(tools_.halve(state.charted.flattening.charts, worst));
       if (consider(state)) return keep_cheapest();
     }
   }
@@ -232,7 +255,7 @@ class BoundKeeper {
   bool feature_seams_ = true;
   std::vector<SeamState> kept_, starts_;
   std::optional<SeamState> least_;  ///< Of the least distortion.
-  double last_cost_mm_ = 0;
+  double last_cost_mm_ = 0, last_distortion_ = 0;
   struct Try {
     bool keeps_bound = false;
     std::vector<std::uint8_t> seam;
