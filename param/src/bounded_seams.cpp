@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "lengthen_seams.hpp"
 #include "papilla/core/error.hpp"
 #include "seam_state.hpp"
 #include "shorten_seams.hpp"
@@ -42,6 +43,11 @@ constexpr std::size_t k_starts = 3;
 /// What is remembered of maps that break the bound, in triangles of all of them: 8 bytes each.
 constexpr std::size_t k_most_remembered = 20'000'000;
 
+/// States of fewer seams whose D - 4 is at most this many times what it may be are brought within the bound, too: the
+/// cheapest of them.
+constexpr double k_near = 2;
+constexpr std::size_t k_near_starts = 2;
+
 /// As often charts are halved where no seam cost is low enough, and the part of its energy that a chart is thought to
 /// lose by that.
 constexpr int k_halvings = 12;
@@ -68,7 +74,10 @@ class BoundKeeper {
       search();
       keep_cheapest();
     }
-    if (starts_.empty()) halve();
+    if (starts_.empty())
+      halve();
+    else
+      lengthen();
     SeamState best = starts_.empty() ? std::move(*least_) : shortest();
     result_.kept = keeps(best);
     result_.distortion = best.distortion;
@@ -93,7 +102,10 @@ class BoundKeeper {
     record(state);
     const bool good = keeps(state);
     if (!least_ || state.distortion < least_->distortion) least_ = state;
-    if (good) kept_.push_back(std::move(state));
+    if (good)
+      kept_.push_back(std::move(state));
+    else if (state.valid && state.distortion - 4 <= k_near * (bound_.most - 4))
+      near_.push_back(std::move(state));
     return good;
   }
 
@@ -202,6 +214,23 @@ class BoundKeeper {
     }
   }
 
+  /// Brings states within the bound that have fewer seams than any that keeps it.
+  void lengthen() {
+    double least = k_infinity;
+    for (const SeamState& start : starts_) least = std::min(least, start.cost_mm);
+    std::erase_if(near_, [&](const SeamState& state) { return !(state.cost_mm < least); });
+    std::stable_sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) { return a.cost_mm < b.cost_mm; });
+    const MapSeams map_seams = [this](const std::vector<std::uint8_t>& seam) {
+      SeamState state = map(charts_between(mesh_, seam));
+      record(state);
+      return state;
+    };
+    for (std::size_t i = 0; i < near_.size() && i < k_near_starts; ++i)
+      if (auto state = lengthen_seams(mesh_, std::move(near_[i]), bound_, map_seams, deadline_))
+        starts_.push_back(std::move(*state));
+    near_.clear();
+  }
+
   /// Of the states that keep the bound.
   void keep_cheapest() {
     std::stable_sort(kept_.begin(), kept_.end(),
@@ -253,7 +282,7 @@ class BoundKeeper {
   const ProgressCallback& progress_;
   Stopwatch clock_;
   bool feature_seams_ = true;
-  std::vector<SeamState> kept_, starts_;
+  std::vector<SeamState> kept_, starts_, near_;
   std::optional<SeamState> least_;  ///< Of the least distortion.
   double last_cost_mm_ = 0, last_distortion_ = 0;
   struct Try {

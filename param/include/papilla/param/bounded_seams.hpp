@@ -70,14 +70,17 @@ inline constexpr double k_bound_slack = 1e-6;
 /// c the costs that are given, D bounded_distortion(). It is the problem of [Li et al., OptCuts, 2018].
 ///
 /// Method. 1. The seam cost λ of the segmentation is bracketed in factors of four and halved once, with seams along
-/// features and without: of what keeps the bound the cheapest of either go on. 2. Their seams are shortened in rounds.
-/// Closing a slit from its tip over a gap δ of the map raises the energy Σ A (e - 4) by about π δ² / 4 (the energy
-/// release rate of a crack in a sheet of this energy, [Irwin 1957]); joining two charts over a stretch by about 3/2 of
-/// the largest gap squared that a rigid motion leaves. Of all slits and stretches each round takes those lengths that
-/// save most per energy for the energy that is left; the charts are mapped anew, and what came out worse than foreseen
-/// around a place counts as dearer there from then on. A round that breaks the bound is taken back and made with half
-/// of the energy. 3. Stretches between two places where seams meet or end are laid along the cheapest way beside the
-/// old one while the bound allows it; then rounds begin again. Seams that broke the bound once are not mapped again.
+/// features and without: of what keeps the bound the cheapest of either go on, and of what is near it and has fewer
+/// seams the cheapest, once their slits have run on from the tips that release most energy per length, π δ² / (4 r) for
+/// a slit δ wide at the distance r. Where no seam cost is low enough, the charts of most energy are halved. 2. Seams
+/// are shortened in rounds. Closing a slit from its tip over a gap δ of the map raises the energy Σ A (e - 4) by about
+/// π δ² / 4 (the energy release rate of a crack in a sheet of this energy, [Irwin 1957]); joining two charts over a
+/// stretch by about 3/2 of the largest gap squared that a rigid motion leaves. Of all slits and stretches each round
+/// takes those lengths that save most per energy for the energy that is left; the charts are mapped anew, and what came
+/// out worse than foreseen around a place counts as dearer there from then on. A round that breaks the bound is taken
+/// back and made with half of the energy. 3. Stretches between two places where seams meet or end are laid along the
+/// cheapest way beside the old one while the bound allows it; then rounds begin again. Seams that broke the bound once
+/// are not mapped again.
 ///
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest

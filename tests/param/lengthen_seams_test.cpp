@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "lengthen_seams.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "papilla/meshing/cut_open.hpp"
+#include "papilla/param/best.hpp"
+#include "papilla_test/shapes.hpp"
+#include "support/formula_meshes.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace param_detail;
+
+/// A hemisphere, open below, with a slit along a meridian up from its border. What it is to be cut to is known: as it
+/// is the same all around, a slit runs on along its meridian.
+class SlitHemisphere : public testing::Test {
+ protected:
+  SlitHemisphere()
+      : mesh_(test::hemisphere_mesh(12, 32, 50)), costs_(3 * mesh_.triangles.size(), 1), seams_(mesh_, costs_) {}
+
+  bool is_on_meridian(Index v) const {
+    const Vec3 p = mesh_.positions[v];
+    return std::abs(p.y) < 1e-9 && p.x > 1e-9;
+  }
+
+  /// Seams as SeamState has them, of a slit up to a height.
+  std::vector<std::uint8_t> slit(double height) const {
+    std::vector<std::uint8_t> seam;
+    for (Index h = 0; h < seams_.opposite.size(); ++h) {
+      const bool low = mesh_.positions[seams_.from(h)].z < height && mesh_.positions[seams_.to(h)].z < height;
+      seam.push_back(seams_.opposite[h] == k_no_triangle ||
+                     (low && is_on_meridian(seams_.from(h)) && is_on_meridian(seams_.to(h))));
+    }
+    return seam;
+  }
+
+  SeamState map(const std::vector<std::uint8_t>& seam, const DistortionBound& bound) const {
+    const ChartSet charts = charts_between(seams_, seam);
+    BestOptions options;
+    options.tolerance = 1e-5;
+    return measured(seams_, {flatten_best(cut_open(mesh_, charts), charts, options), {}}, bound);
+  }
+
+  TriangleMesh mesh_;
+  std::vector<double> costs_;
+  SeamMesh seams_;
+};
+
+TEST_F(SlitHemisphere, RunsOnAlongItsMeridianUntilTheBoundIsKept) {
+  const SeamState low = map(slit(22), {}), high = map(slit(40), {});
+  ASSERT_LT(high.distortion, low.distortion);
+  const DistortionBound bound{0.5 * (low.distortion + high.distortion), {}};
+  int maps = 0;
+  const auto state = lengthen_seams(seams_, low, bound, [&](const auto& seam) { return ++maps, map(seam, bound); }, {});
+  ASSERT_TRUE(state);
+  EXPECT_LE(state->distortion, bound.most);
+  EXPECT_GT(state->seam_mm, low.seam_mm);
+  EXPECT_LE(state->seam_mm, high.seam_mm);
+  EXPECT_LE(maps, 5);
+  for (Index h = 0; h < state->seam.size(); ++h) {
+    if (low.seam[h]) EXPECT_TRUE(state->seam[h]) << h;
+    if (!state->seam[h] || seams_.opposite[h] == k_no_triangle) continue;
+    EXPECT_TRUE(is_on_meridian(seams_.from(h)) && is_on_meridian(seams_.to(h))) << h;
+  }
+}
+
+TEST_F(SlitHemisphere, WhatHasNoTipIsLeft) {
+  const DistortionBound bound{4.01, {}};
+  int maps = 0;
+  const SeamState whole = map(slit(-1), bound);
+  EXPECT_EQ(whole.seam_mm, 0);
+  EXPECT_FALSE(lengthen_seams(seams_, whole, bound, [&](const auto& seam) { return ++maps, map(seam, bound); }, {}));
+  EXPECT_EQ(maps, 0);
+}
+
+}  // namespace
+}  // namespace papilla
