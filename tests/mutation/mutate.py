@@ -183,6 +183,7 @@ class Copy:
         known = json.loads(self.times_file.read_text()) if self.times_file.exists() else {}
         # Of each program its seconds and, of GoogleTest, the source and the seconds of each test.
         self.unmutated = known.get("programs", {}) if known.get("commit") == self.commit else {}
+        self.unsteady = known.get("unsteady", {}) if known.get("commit") == self.commit else {}
 
     def filled(self, words, work=None, targets=()):
         values = {"tree": self.tree, "build": self.build_folder, "work": work, "jobs": self.jobs}
@@ -240,27 +241,37 @@ class Copy:
         code, output, _ = self.run(self.filled(self.table["build"], targets=targets), self.tree)
         return output if code != 0 else None
 
-    def test(self, name, limit=None, tests=None):
-        """What kills the program's run, or None when it passes, and its processor seconds. `tests` is a filter of GoogleTest."""
+    def command(self, name, asked, left_out, work):
+        """What runs a program; of GoogleTest those tests alone, or all but those."""
         program = self.table["programs"][name]
+        if "gtest" not in program:
+            return self.filled(program["run"], work)
+        words = [program["gtest"], "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_output=json:{self.told}"]
+        if asked or left_out:
+            words.append("--gtest_filter=" + ":".join(asked) + ("-" + ":".join(left_out) if left_out else ""))
+        return self.filled(words, work)
+
+    def test(self, name, limit=None, asked=(), left_out=()):
+        """What kills the program's run, or None when it passes, and its processor seconds. A test of GoogleTest that fails
+        is asked once more, alone: one that passes then depends on the hour, and is left out from now on."""
         work = self.folder / "work" / name
-        shutil.rmtree(work, ignore_errors=True)
-        work.mkdir(parents=True)
-        if "gtest" in program:
-            command = self.filled([program["gtest"], "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_output=json:{self.told}"], work)
-            if tests:
-                command.append(f"--gtest_filter={tests}")
-        else:
-            command = self.filled(program["run"], work)
-        code, output, seconds = self.run(command, work, limit)
-        if code == 0:
-            return None, seconds
-        if isinstance(code, str):
-            return f"{name} ({code})", seconds
-        if case := FAILED_CASE.search(output):
-            return f"{name}.{case[1]}", seconds
-        lines = output.strip().splitlines()
-        return f"{name} (exit code {code}{': ' + lines[-1][:160] if lines else ''})", seconds
+        while True:
+            shutil.rmtree(work, ignore_errors=True)
+            work.mkdir(parents=True)
+            unsteady = self.unsteady.setdefault(name, [])
+            code, output, seconds = self.run(self.command(name, asked, [*left_out, *unsteady], work), work, limit)
+            if code == 0:
+                return None, seconds
+            if isinstance(code, str):
+                return f"{name} ({code})", seconds
+            case = FAILED_CASE.search(output)
+            if not case:
+                lines = output.strip().splitlines()
+                return f"{name} (exit code {code}{': ' + lines[-1][:160] if lines else ''})", seconds
+            if "gtest" not in self.table["programs"][name] or self.run(self.command(name, [case[1]], [], work), work, limit)[0] != 0:
+                return f"{name}.{case[1]}", seconds
+            print(f"  unsteady, and left out: {name}.{case[1]}", flush=True)
+            unsteady.append(case[1])
 
     def measure(self, programs):
         """Builds and runs the programs without a fault; the times of their tests are kept."""
@@ -278,20 +289,21 @@ class Copy:
                     tests |= {f"{suite['name']}.{t['name']}": [t["file"], float(t["time"].rstrip("s"))]
                               for t in suite["testsuite"]}
             self.unmutated[name] = {"seconds": seconds, "tests": tests}
-            self.times_file.write_text(json.dumps({"commit": self.commit, "programs": self.unmutated}))
+            self.times_file.write_text(
+                json.dumps({"commit": self.commit, "programs": self.unmutated, "unsteady": self.unsteady}))
 
     def rounds(self, programs, file, names):
-        """What is run for a fault, one after the other: program, filter and the seconds it takes without a fault."""
+        """What is run for a fault, one after the other: program, tests, those left out, and the seconds without a fault."""
         first, rest = [], []
         for name in programs:
             whole, tests = self.unmutated[name]["seconds"], self.unmutated[name]["tests"]
             near = nearest(tests, names, file)
             if near and len(near) < len(tests):
                 share = sum(tests[t][1] for t in near) / max(1e-3, sum(t[1] for t in tests.values()))
-                first.append((name, ":".join(near), share * whole))
-                rest.append((name, "-" + ":".join(near), whole))
+                first.append((name, near, [], share * whole))
+                rest.append((name, [], near, whole))
             else:
-                rest.append((name, None, whole))
+                rest.append((name, [], [], whole))
         return first + rest
 
     def try_fault(self, fault, programs, names):
@@ -304,9 +316,9 @@ class Copy:
                 if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
                     return "does not compile", said[0].strip()
                 return "killed", "a program that does not start"  # Its cases are listed when it is linked.
-            for name, tests, seconds in self.rounds(programs, fault["file"], names):
+            for name, asked, left_out, seconds in self.rounds(programs, fault["file"], names):
                 limit = max(self.table["least_seconds"]["computing"], TIMES_UNMUTATED * seconds)
-                if killer := self.test(name, limit, tests)[0]:
+                if killer := self.test(name, limit, asked, left_out)[0]:
                     return "killed", killer
             return "survived", ""
         finally:
