@@ -163,6 +163,20 @@ TEST_F(GltfReader, NodesTurnAboutAllAxesAndScaleUnevenly) {
   }
 }
 
+TEST_F(GltfReader, TheLeastNormalizedByteIsMinusOne) {
+  GlbFixture binary;
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  binary.accessor(binary.view(std::vector<std::int8_t>{-128, -127, 127, 0, 64, -128}), 5120, 3, "VEC2",
+                  R"(,"normalized":true)");
+  const Scene scene =
+      read(binary.glb(R"("extensionsRequired":["KHR_mesh_quantization"],"extensionsUsed":["KHR_mesh_quantization"],)" +
+                      mesh_of(R"({"attributes":{"POSITION":0,"TEXCOORD_0":1}})")));
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  EXPECT_EQ(mesh.uv.values[mesh.uv.indices[0][0]], (Vec2{-1, 2}));
+  EXPECT_EQ(mesh.uv.values[mesh.uv.indices[0][1]], (Vec2{1, 1}));
+  EXPECT_EQ(mesh.uv.values[mesh.uv.indices[0][2]], (Vec2{64 / 127.0, 2}));
+}
+
 /// The scale of whole numbers goes into them: what hangs on the node stays where it is.
 TEST_F(GltfReader, ChildrenOfWholePositionsStayWhereTheyAre) {
   GlbFixture binary;
