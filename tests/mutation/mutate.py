@@ -246,6 +246,7 @@ class Copy:
         program = self.table["programs"][name]
         if "gtest" not in program:
             return self.filled(program["run"], work)
+        left_out = [*left_out, *program.get("left_out", [])]
         words = [program["gtest"], "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_output=json:{self.told}"]
         if asked or left_out:
             words.append("--gtest_filter=" + ":".join(asked) + ("-" + ":".join(left_out) if left_out else ""))

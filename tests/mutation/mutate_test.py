@@ -165,13 +165,13 @@ class MutateTest(unittest.TestCase):
         self.commit(ASLEEP)
         self.assertIn("asleep: killed by size (waits for longer than 3 s)", self.mutate()[1])
 
-    def asked(self, *faults, unsteady=False):
+    def asked(self, *faults, unsteady=False, left_out=()):
         """The filters of a GoogleTest program, run by run, and what was printed."""
         folder = self.root / "build"
         values = {"PYTHON": sys.executable, "FOLDER": str(folder), "UNSTEADY": str(unsteady)}
         self.write("tests/size_gtest", functools.reduce(lambda text, name: text.replace(name, values[name]), values, GTEST))
         (self.root / "tests" / "size_gtest").chmod(0o755)
-        self.table["programs"]["size"] = {"targets": ["size"], "gtest": "{tree}/tests/size_gtest"}
+        self.table["programs"]["size"] = {"targets": ["size"], "gtest": "{tree}/tests/size_gtest", "left_out": list(left_out)}
         self.write("tests/mutation/project.json", json.dumps(self.table))
         self.commit(*faults)
         folder.mkdir()
@@ -189,6 +189,11 @@ class MutateTest(unittest.TestCase):
         self.assertIn("unsteady, and left out: size.Shape.Corners", out)
         self.assertIn("area: killed by size.Size.Area", out)
         self.assertEqual(filters, ["*", "Shape.Corners", "-Shape.Corners", "-Shape.Corners", "Size.Area"])
+
+    def test_tests_that_keep_pace_with_a_clock_are_never_asked(self):
+        filters, out = self.asked(KILLED, unsteady=True, left_out=["Shape.Corners"])
+        self.assertIn("area: killed by size.Size.Area", out)
+        self.assertEqual(filters, ["-Shape.Corners", "-Shape.Corners", "Size.Area-Shape.Corners"])
 
     def test_a_row_says_which_tests_are_asked_first(self):
         self.write("tests/shape_test.cpp", "")
