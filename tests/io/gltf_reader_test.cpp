@@ -204,6 +204,7 @@ TEST_F(GltfReader, TheSecondCoordinatesAndColoursOfVerticesAreTheirOwn) {
   const Scene scene = read(binary.glb(mesh_of(R"({"attributes":{"POSITION":0,"TEXCOORD_1":1,"COLOR_0":2}})")));
   const TriangleMesh& mesh = scene.parts[0].mesh;
   EXPECT_TRUE(mesh.uv.empty());
+  ASSERT_FALSE(mesh.uv1.empty() || mesh.colors.empty());
   const Vec2 second = mesh.uv1.values[mesh.uv1.indices[0][1]];
   EXPECT_NEAR(second.x, 0.2, 1e-6);
   EXPECT_NEAR(second.y, 1 - 0.8, 1e-6);
