@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "io/temporary_folder.hpp"
@@ -120,6 +122,90 @@ TEST(PageScene, TellsWhatLiesOnTheSecondChannelAndWhatBrowsersDoNotShow) {
   ASSERT_EQ(shown["warnings"].size(), 1U);
   EXPECT_EQ(shown["warnings"][0].get<std::string>().substr(0, 17), "picture_not_shown");
   EXPECT_NE(json["parts"][0]["meshes"][0]["uv1_stream"], "");
+}
+
+/// Two triangles of unequal area in a box of three unequal sides, whose vertices come back from the streams.
+TEST(PageMesh, VerticesComeBackFromTheStreams) {
+  TriangleMesh mesh;
+  mesh.positions = {{1, 2, 3}, {5, 3, 4}, {2, 8, 13}, {4, 9, 5}};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+  mesh.uv.values = {{0.1, 0.2}, {0.7, 0.3}, {0.2, 3.9}, {0.6, 1}};
+  mesh.uv1.values = {{0.5, 2}, {0.1, 5}, {0.9, 3}, {0.3, 4}};
+  mesh.normals.values = {normalized(Vec3{1, 2, 3}), normalized(Vec3{-1, 2, 5}), normalized(Vec3{4, -2, 1}), {0, 0, -1}};
+  mesh.uv.indices = mesh.uv1.indices = mesh.normals.indices = mesh.triangles;
+  const DistortionReport report = measure_distortion(mesh, mesh.uv);
+  const PageMesh page = page_meshes(mesh, mesh.uv, {true}, report, 1)[0];
+  EXPECT_EQ(page.low, (Vec3{1, 2, 3}));
+  EXPECT_EQ(page.high, (Vec3{5, 9, 13}));
+  struct Vertex {
+    std::array<std::uint16_t, 4> position;
+    std::array<std::uint16_t, 2> uv;
+    std::array<std::int8_t, 4> normal;
+    std::array<std::uint16_t, 4> measured;
+  };
+  ASSERT_EQ(page.vertices, 4U);
+  std::array<Vertex, 4> vertices{};
+  std::array<std::array<std::uint16_t, 2>, 4> second{};
+  const auto decode = [](auto& to, const std::vector<std::byte>& stream) {
+    return meshopt_decodeVertexBuffer(to.data(), to.size(), sizeof(to[0]),
+                                      reinterpret_cast<const unsigned char*>(stream.data()), stream.size());
+  };
+  ASSERT_EQ(decode(vertices, page.vertex_stream), 0);
+  ASSERT_EQ(decode(second, page.uv1_stream), 0);
+  const auto between = [](double low, double high, std::uint16_t code) { return low + (high - low) * code / 65535; };
+  std::set<std::size_t> seen;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 p{between(1, 5, vertices[i].position[0]), between(2, 9, vertices[i].position[1]),
+                 between(3, 13, vertices[i].position[2])};
+    std::size_t k = 0;
+    while (k < 4 && norm(mesh.positions[k] - p) > 1e-3) ++k;
+    ASSERT_LT(k, 4U) << p.x << ' ' << p.y << ' ' << p.z;
+    seen.insert(k);
+    EXPECT_NEAR(between(page.uv_low.x, page.uv_high.x, vertices[i].uv[0]), mesh.uv.values[k].x, 1e-3);
+    EXPECT_NEAR(between(page.uv_low.y, page.uv_high.y, vertices[i].uv[1]), 1 - mesh.uv.values[k].y, 1e-3);
+    EXPECT_NEAR(between(page.uv1_low.x, page.uv1_high.x, second[i][0]), mesh.uv1.values[k].x, 1e-3);
+    EXPECT_NEAR(between(page.uv1_low.y, page.uv1_high.y, second[i][1]), 1 - mesh.uv1.values[k].y, 1e-3);
+    const Vec3 normal{vertices[i].normal[0] / 127.0, vertices[i].normal[1] / 127.0, vertices[i].normal[2] / 127.0};
+    EXPECT_LT(norm(normal - mesh.normals.values[k]), 0.01);
+    double angle = 0, area = 0;
+    for (const std::size_t t : {0U, 1U}) {
+      const auto& corners = mesh.triangles[t];
+      if (std::find(corners.begin(), corners.end(), k) == corners.end()) continue;
+      angle += report.per_triangle[t].area_mm2 * report.per_triangle[t].angle_error_deg;
+      area += report.per_triangle[t].area_mm2;
+    }
+    EXPECT_NEAR(180 * vertices[i].measured[1] / 65534.0, angle / area, 0.01);
+  }
+  EXPECT_EQ(seen.size(), 4U);
+}
+
+TEST(PageScene, KnowsWhichWayIsUpAndWhatLiesOnTheSecondCoordinates) {
+  Part part;
+  part.mesh = grid(2, 1);
+  part.mesh.uv1 = part.mesh.uv;
+  part.materials = {0};
+  Scene scene = single_part_scene(std::move(part), "test");
+  Material material;
+  material.normal_texture = TextureReference{0, 1, 1, {}};
+  scene.materials = {material};
+  Texture texture;
+  texture.image = 0;
+  texture.wrap_s = 33071;
+  texture.wrap_t = 33648;
+  scene.textures = {texture};
+  EncodedImage image;
+  image.mime_type = "image/png";
+  image.bytes.resize(4);
+  scene.images = {image};
+  for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
+    scene.up = up;
+    const Json json = page_scene(scene, "a.glb", {}, {}).json;
+    EXPECT_EQ(json["z_up"], up == UpAxis::z);
+    EXPECT_NE(json["parts"][0]["meshes"][0]["uv1_stream"], "");
+    EXPECT_EQ(json["materials"][0]["normal_map"]["wrap"], Json({33071, 33648}));
+  }
+  scene.parts[0].mesh.uv = {};
+  EXPECT_EQ(page_scene(scene, "a.glb", {}, {}).json["parts"][0]["meshes"][0]["uv"], true);
 }
 
 TEST(PageScene, LevelsOfDetailStandWhereTheFinestDoes) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "exit_code.hpp"
+#include "option_checks.hpp"
 
 namespace papilla::app {
 namespace {
@@ -51,6 +52,35 @@ std::string complaint(const std::string& line) {
     return error.what();
   }
   return {};
+}
+
+TEST(UnwrapOption, BothSidesOfATileAndTheLeastDensityCount) {
+  CLI::App app;
+  UnwrapOption options;
+  options.add_to(app);
+  app.parse("--tile 30 45 --texture-px 1024 --density door=0.001 --density seat*=1000");
+  const UnwrapOptions read = options.options();
+  EXPECT_EQ(read.tile_mm, (Vec2{30, 45}));
+  ASSERT_EQ(read.density.size(), 2u);
+  EXPECT_EQ(read.density[0], (std::pair<std::string, double>{"door", 0.001}));
+  EXPECT_EQ(read.density[1], (std::pair<std::string, double>{"seat*", 1000}));
+  EXPECT_NE(complaint("--texture-px 1024 --density door=0.0009"), "");
+}
+
+TEST(OptionChecks, EndsOfARangeAndAnyCaseAreTaken) {
+  const CLI::Validator range = in_range(-1, 2.5);
+  for (const char* good : {"-1", "0", "2.5"}) {
+    std::string text = good;
+    EXPECT_EQ(range(text), "") << good;
+  }
+  for (const char* bad : {"-1.01", "2.51", "nan", "x"}) {
+    std::string text = bad;
+    EXPECT_NE(range(text), "") << bad;
+  }
+  const CLI::Validator choice = one_of({"Atlas", "tile"});
+  std::string text = "aTLAS";
+  EXPECT_EQ(choice(text), "");
+  EXPECT_EQ(text, "Atlas");
 }
 
 TEST(UnwrapOption, OptionsOfOtherMethodsAreRefused) {

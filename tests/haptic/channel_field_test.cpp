@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -81,6 +82,18 @@ TEST(AverageTexels, ABallFeelsMeans) {
   EXPECT_EQ(as_felt(texels, k_size, std::numeric_limits<double>::quiet_NaN(), {1.6e-3, 1.0}), texels);
 }
 
+TEST(AverageTexels, EveryAxisHasItsOwnSizeAndBorder) {
+  // 16 rows of 0.1 mm, which end at both borders; two columns of half a metre, which repeat.
+  std::vector<ChannelField::Texel> texels(2 * 16);
+  for (std::size_t i = 16; i < 32; ++i) texels[i] = {63000, 7000, 21};
+  const auto ball = average_texels(texels, 2, 16, {}, {Wrap::repeat, Wrap::clamp}, 3e-4, {1.0, 1.6e-3});
+  for (int y = 0; y < 16; ++y) {
+    int white = 0;
+    for (int i = -3; i <= 3; ++i) white += std::clamp(y + i, 0, 15) >= 8;
+    for (const int x : {0, 1}) EXPECT_EQ(ball[static_cast<std::size_t>(2 * y + x)][0], 9000 * white) << y;
+  }
+}
+
 TEST(AverageTexels, KeepTheMeanAndBoundTheSlope) {
   const auto texels = noise(8 * 8, 7), ball = as_felt(texels, 8, 2.0 / 8, {1, 1});
   double before = 0, after = 0;
@@ -117,6 +130,12 @@ TEST(ChannelField, WrapsAsItsOptionsSay) {
   EXPECT_NEAR(value(Wrap::mirror, 1.125), 60000, 1e-6);
   EXPECT_NEAR(value(Wrap::mirror, 1.375), 40000, 1e-6);
   EXPECT_NEAR(value(Wrap::repeat, -7.875), value(Wrap::repeat, 0.125), 1e-6);
+  const auto down = [&](std::array<Wrap, 2> wrap) {
+    const ChannelField field(1, 4, texels, {{MapChannel{Quantity::stiffness, 65535, 0}}, {}, wrap});
+    return at(field, {0.5, 1}).stiffness;
+  };
+  EXPECT_NEAR(down({Wrap::clamp, Wrap::repeat}), 30000, 1e-6);
+  EXPECT_NEAR(down({Wrap::repeat, Wrap::clamp}), 60000, 1e-6);
 }
 
 TEST(ChannelField, GradientIsThatOfFiniteDifferences) {
@@ -140,10 +159,10 @@ TEST(ChannelField, GradientIsThatOfFiniteDifferences) {
 }
 
 TEST(ChannelField, FollowsTheTransform) {
-  const auto texels = noise(8 * 8, 5);
+  const auto texels = noise(8 * 5, 5);
   ChannelFieldOptions turned = three_channels();
   turned.uv_transform = {{0.1, 0.2}, 0, {3, 5}};
-  const ChannelField plain(8, 8, texels, three_channels()), moved(8, 8, texels, turned);
+  const ChannelField plain(8, 5, texels, three_channels()), moved(8, 5, texels, turned);
   EXPECT_NEAR(at(moved, {0.3, 0.7}).stiffness, at(plain, {0.1 + 0.9, 0.2 + 3.5}).stiffness, 1e-9);
 }
 

@@ -115,6 +115,76 @@ TEST(ContactSurface, ReliefReachesBelowThePlate) {
   EXPECT_NEAR(0.01 - 0.02 * hit->t, s + 1e-4, surface.tolerance_m());
 }
 
+/// A relief that lies 0.1 mm deep nearly everywhere: the box is smaller by that on every side, up to its corners,
+/// though some sides have one and some two triangles there.
+TEST(ContactSurface, ASunkOblongBoxIsTheSmallerBox) {
+  const Vec3 low{-0.01, 0.02, 0.005}, high{0.02, 0.07, 0.025};
+  ContactMaterial material;
+  material.height = 0;
+  HeightFieldOptions options;
+  options.scale_m = 2e-4;
+  options.offset_m = -1e-4;
+  options.interpolation = Interpolation::bilinear;
+  std::vector<std::uint16_t> samples(8 * 8, 0);
+  samples[8 * 4 + 4] = 65535;
+  ContactMesh mesh = box(low, high);
+  mesh.corner_uv.assign(3 * mesh.triangles.size(), {});  // All of it is at the first texel.
+  const ContactSurface surface(mesh, {material}, {HeightField(8, 8, samples, options)}, 0);
+  const Vec3 size = high - low;
+  for (const double a : {0.02, 0.5, 0.97})
+    for (const double b : {0.03, 0.4, 0.98}) {
+      const double out = surface.skin_m() - 1e-4;
+      for (const Vec3 p : {Vec3{low.x - out, low.y + a * size.y, low.z + b * size.z},
+                           Vec3{high.x + out, low.y + a * size.y, low.z + b * size.z},
+                           Vec3{low.x + a * size.x, low.y - out, low.z + b * size.z},
+                           Vec3{low.x + a * size.x, high.y + out, low.z + b * size.z},
+                           Vec3{low.x + a * size.x, low.y + b * size.y, low.z - out},
+                           Vec3{low.x + a * size.x, low.y + b * size.y, high.z + out}})
+        EXPECT_NEAR(surface.clearance(p, 0.01), 0, 1e-8) << p.x << ' ' << p.y << ' ' << p.z;
+    }
+}
+
+/// A map of 24 × 10 texels that is turned and unevenly scaled, on a triangle without a right angle.
+TEST(ContactSurface, AStimulusOfATurnedOblongMapIsThatOfItsPlace) {
+  std::mt19937 random(3);
+  std::vector<std::uint16_t> samples(24 * 10);
+  for (auto& v : samples) v = static_cast<std::uint16_t>(20000 + random() % 20000);
+  HeightFieldOptions options;
+  options.scale_m = 2e-4;
+  options.interpolation = Interpolation::bspline;
+  options.uv_transform = {{0.13, -0.4}, 0.7, {1.7, 0.6}};
+  ContactMesh mesh;
+  mesh.positions = {{0.01, 0.02, 0.03}, {0.06, 0.01, 0.05}, {0.03, 0.07, 0.02}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.corner_uv = {{0.1, 0.2}, {0.9, 0.5}, {0.3, 1.4}};
+  ContactMaterial material;
+  material.stimulus = 0;
+  const ContactSurface surface(mesh, {material}, {HeightField(24, 10, samples, options)}, 0);
+  const Vec3 ab = mesh.positions[1] - mesh.positions[0], ac = mesh.positions[2] - mesh.positions[0];
+  const auto at = [&](double v, double w) { return mesh.positions[0] + v * ab + w * ac; };
+  const auto uv = [&](double v, double w) {
+    return mesh.corner_uv[0] + v * (mesh.corner_uv[1] - mesh.corner_uv[0]) +
+           w * (mesh.corner_uv[2] - mesh.corner_uv[0]);
+  };
+  const auto rows = options.uv_transform.rows(24, 10);
+  const auto texel = [&](double v, double w) { return Vec2{dot(rows[0], uv(v, w)), dot(rows[1], uv(v, w))}; };
+  const double texels = std::abs(cross(texel(1, 0) - texel(0, 0), texel(0, 1) - texel(0, 0)));
+  constexpr double e = 1e-5;
+  for (const Vec2 f : {Vec2{0.2, 0.3}, Vec2{0.5, 0.1}, Vec2{0.15, 0.7}}) {
+    const auto here = surface.stimulus(at(f.x, f.y), 1e-3);
+    ASSERT_TRUE(here);
+    EXPECT_NEAR(here->column, texel(f.x, f.y).x, 1e-5);
+    EXPECT_NEAR(here->pixel_m * here->pixel_m * texels, norm(cross(ab, ac)), 1e-6 * norm(cross(ab, ac)));
+    EXPECT_NEAR(dot(here->slope, here->normal), 0, 1e-9 * norm(here->slope));
+    for (const Vec2 way : {Vec2{e, 0}, Vec2{0, e}}) {
+      const auto on = surface.stimulus(at(f.x + way.x, f.y + way.y), 1e-3),
+                 back = surface.stimulus(at(f.x - way.x, f.y - way.y), 1e-3);
+      const Vec3 moved = at(f.x + way.x, f.y + way.y) - at(f.x - way.x, f.y - way.y);
+      EXPECT_NEAR(on->grey - back->grey, dot(here->slope, moved), 1e-3 * norm(here->slope) * norm(moved));
+    }
+  }
+}
+
 /// Sweeps over a relief end in contact and never penetrate by more than the tolerance before, sampled in steps of 1/16
 /// texel.
 TEST(ContactSurface, SweepsOverReliefDoNotPassThroughIt) {

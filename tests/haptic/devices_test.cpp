@@ -41,6 +41,44 @@ TEST(SimDevice, FreeMassWithDamperHasItsClosedForm) {
   EXPECT_NEAR(sim.velocity().x, f / b * (1 - std::exp(-b * t / m)), 1e-12);
 }
 
+TEST(SimDevice, WithoutDampingTheWayIsThatOfAConstantForce) {
+  const Trajectory hand = rest();
+  SimDevice sim(device(0.1, 0, 0, 0, 0), hand, 1e-3, {0, 0});
+  EXPECT_NEAR(last_position(sim, 100, {0.2, 0, 0}), 0.2 * 0.1 * 0.1 / (2 * 0.1), 1e-12);
+}
+
+TEST(SimDevice, EveryAxisMovesAsItsForceAndIsRoundedToSteps) {
+  const double step = 7e-5;
+  const Trajectory hand = rest();
+  SimDevice sim(device(0.1, 0.5, 0, step, 0), hand, 1e-3, {0, 0});
+  const Vec3 force{0.2, -0.3, 0.5};
+  DeviceState state;
+  sim.read(state);
+  for (int i = 0; i < 400; ++i) {
+    sim.write(force);
+    sim.read(state);
+  }
+  const Vec3 exact = (1 / 0.5 * (0.4 - 0.1 / 0.5 * (1 - std::exp(-0.5 * 0.4 / 0.1)))) * force;
+  EXPECT_NEAR(state.position.x, step * std::round(exact.x / step), 1e-12);
+  EXPECT_NEAR(state.position.y, step * std::round(exact.y / step), 1e-12);
+  EXPECT_NEAR(state.position.z, step * std::round(exact.z / step), 1e-12);
+}
+
+/// A hand at rest that only damps: v = F/B (1 − exp(−Bt/m)), and what it takes is B ∫ v².
+TEST(SimDevice, WorkOfADampingHandIsTheClosedForm) {
+  const double m = 0.1, b = 0.5, f = 1, t = 5e-5;
+  const Trajectory hand = rest();
+  for (const int ticks : {1, 400}) {
+    SimDevice sim(device(m, 0, 0, 0, 0), hand, t, {0, b});
+    last_position(sim, ticks, {f, 0, 0});
+    const double end = ticks * t, z = b * end / m;
+    const double square = z < 1e-3
+                              ? f * f / (m * m) * end * end * end / 3
+                              : f * f / (b * b) * (end + m / b * (-1.5 + 2 * std::exp(-z) - 0.5 * std::exp(-2 * z)));
+    EXPECT_NEAR(sim.hand_work_j() / (-b * square), 1, 1e-3) << ticks;
+  }
+}
+
 TEST(SimDevice, FrictionHoldsUpToItsForceAndBrakesByIt) {
   const Trajectory hand = rest();
   SimDevice held(device(0.1, 0, 0.3, 0, 0), hand, 1e-3, {0, 0});

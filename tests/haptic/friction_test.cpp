@@ -31,6 +31,24 @@ TEST(FrictionModels, HaveNames) {
   EXPECT_EQ(friction_model("glue"), std::nullopt);
 }
 
+TEST(FrictionCoefficient, FallsAtOnceWithoutAStribeckVelocity) {
+  ContactMaterial material;
+  material.static_friction = 0.6;
+  material.dynamic_friction = 0.2;
+  material.stribeck_velocity = 0;
+  EXPECT_EQ(friction_coefficient(material, 0), 0.6);
+  EXPECT_NEAR(friction_coefficient(material, 1e-9), 0.2, 1e-12);
+}
+
+TEST(BristleFriction, PullsAlongTheFaceOnlyAfterAnEdge) {
+  const ContactMaterial material = bristles(0.5, 0.5, 2000);
+  BristleFriction friction;
+  EXPECT_GT(norm(friction.force(material, k_up, 3, {1e-4, 2e-4, 0}, 1e-3)), 0.1);
+  const Vec3 round_the_edge = friction.force(material, {1, 0, 0}, 3, {0, 0, 0}, 1e-3);
+  EXPECT_NEAR(round_the_edge.x, 0, 1e-12);
+  EXPECT_LT(round_the_edge.y, -0.1);
+}
+
 TEST(BristleFriction, FollowsDahlsEquation) {
   // F(x) = −μN(1 − exp(−σx/μN)), whatever the length of a tick.
   const ContactMaterial material = bristles(0.4, 0.4, 2000);

@@ -106,6 +106,79 @@ TEST(HapticScene, HalvesMapsThatTheRateCantCarry) {
   EXPECT_EQ(load_haptic_scene(file.path).heights[0].width(), 128);
 }
 
+/// The map has 128 × 4 texels, here of 2.5 by 0.31 mm.
+nlohmann::json upright_tag() {
+  nlohmann::json upright = tag();
+  upright["height"]["metresPerUV"] = {0.32, 0.00125};
+  return upright;
+}
+
+TEST(HapticScene, TheFinerSideOfATexelSaysWhatTheRateCanCarry) {
+  const File file(testing::plate_glb({{"haptic", upright_tag()}}, testing::sine_png()));
+  HapticSceneOptions options;
+  options.shortest_wave_m = 2e-3;
+  EXPECT_EQ(load_haptic_scene(file.path, options).maps_coarsened, 1);
+}
+
+/// A map repeated four times as often along v over a unit of uv four times as long: its texels are as large as before.
+TEST(HapticScene, AnUnevenChangeOfScaleLeavesTexelsAsLargeAsTheyWere) {
+  const File file(testing::plate_glb({{"haptic", upright_tag()}}, testing::sine_png()));
+  Scene scene = read_gltf(file.path);
+  TextureReference reference;
+  reference.transform = UvTransform{{0, 0}, 0, {1, 4}};
+  scene.materials[0].normal_texture = reference;
+  HapticSceneOptions options;
+  options.shortest_wave_m = 1e-3;  // Four texels are 1.25 mm.
+  EXPECT_EQ(haptic_scene(scene, file.path, options).maps_coarsened, 0);
+}
+
+/// An oblique triangle with its own normal, turned about all axes, scaled unevenly and mirrored: that normal is its own
+/// afterwards, too. Its relief lies on the second coordinates.
+TEST(HapticScene, NormalsStayUprightAndTheSecondCoordinatesAreFelt) {
+  const File file(testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  Scene scene = read_gltf(file.path);
+  scene.materials[0].haptic->force_shading = true;
+  scene.materials[0].haptic->height->tex_coord = 1;
+  TriangleMesh& mesh = scene.parts[0].mesh;
+  mesh = {};
+  mesh.positions = {{10, 20, 30}, {50, 10, 40}, {20, 70, 10}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.normals.values = {
+      normalized(cross(mesh.positions[1] - mesh.positions[0], mesh.positions[2] - mesh.positions[0]))};
+  mesh.normals.indices = {{0, 0, 0}};
+  mesh.uv.values = {{0.1, 0.1}, {0.2, 0.1}, {0.1, 0.2}};
+  mesh.uv.indices = mesh.uv1.indices = {{0, 1, 2}};
+  mesh.uv1.values = {{0.7, 0.2}, {0.9, 0.3}, {0.8, 0.6}};
+  for (const double side : {1.0, -1.0}) {
+    // 2, 3 and 5 along axes turned by the quaternion (0.1, -0.5, 0.7, 0.5).
+    scene.nodes[instances(scene)[0].node].local = {side * 2 * -0.48, 3 * -0.8, 5 * -0.36, 7,  //
+                                                   side * 2 * 0.6,   3 * 0,    5 * -0.8,  8,  //
+                                                   side * 2 * 0.64,  3 * -0.6, 5 * 0.48,  9, 0, 0, 0, 1};
+    const HapticScene felt = haptic_scene(scene, file.path);
+    ASSERT_EQ(felt.mesh.triangles.size(), 1U);
+    const Vec3 a = felt.mesh.corner(0, 0);
+    const Vec3 face = normalized(cross(felt.mesh.corner(0, 1) - a, felt.mesh.corner(0, 2) - a));
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(norm(felt.mesh.normal(0, k) - face), 1e-6) << side;
+    // As glTF counts them, v down; a mirrored triangle begins with its third corner.
+    EXPECT_LT(norm(felt.mesh.uv(0, 0) - Vec2{0.7, 0.8}), 1e-12);
+    EXPECT_LT(norm(felt.mesh.uv(0, side > 0 ? 1 : 2) - Vec2{0.9, 0.7}), 1e-12);
+    EXPECT_LT(norm(felt.mesh.uv(0, side > 0 ? 2 : 1) - Vec2{0.8, 0.4}), 1e-12);
+  }
+}
+
+TEST(LargestMaterial, CentreIsTheMeanOverItsArea) {
+  HapticScene scene;
+  scene.materials.resize(2);
+  scene.mesh.positions = {{0, 0, 0}, {4, 0, 0}, {0, 2, 0}, {0, 0, 6}, {1, 0, 0}, {0, 1, 0}};
+  scene.mesh.triangles = {{0, 4, 5}, {0, 1, 2}, {0, 2, 3}};
+  scene.mesh.material = {0, 1, 1};
+  const LargestMaterial found = largest_material(scene);
+  EXPECT_EQ(found.material, 1U);
+  // Areas of 4 and 6.
+  const Vec3 expected = 0.1 * (4 * Vec3{4.0 / 3, 2.0 / 3, 0} + 6 * Vec3{0, 2.0 / 3, 2});
+  EXPECT_LT(norm(found.centre - expected), 1e-12);
+}
+
 TEST(HapticScene, LaysRoughnessOverTheMap) {
   nlohmann::json rough = tag();
   rough["version"] = 2;

@@ -110,6 +110,51 @@ TEST(HeightField, WrapModes) {
   EXPECT_NEAR(at(Wrap::clamp, 1.6), at(Wrap::clamp, 0.875), 1e-15);
   EXPECT_NEAR(at(Wrap::mirror, 1.125), at(Wrap::mirror, 0.875), 1e-15);
   EXPECT_NEAR(at(Wrap::mirror, -0.125), at(Wrap::mirror, 0.125), 1e-15);
+  o.wrap = {Wrap::repeat, Wrap::clamp};
+  const HeightField down(1, 4, ramp, o);
+  EXPECT_NEAR(down.sample({0.5, 1.6}).height_m, down.sample({0.5, 0.875}).height_m, 1e-15);
+  o.wrap = {Wrap::clamp, Wrap::repeat};
+  const HeightField round(1, 4, ramp, o);
+  EXPECT_NEAR(round.sample({0.5, 1.6}).height_m, round.sample({0.5, 0.6}).height_m, 1e-15);
+}
+
+/// Rows that end do not know of those at the other end: neither slopes, nor the ball, nor rounding.
+TEST(HeightField, ShapesEndAtTheBorderOfRowsOnly) {
+  constexpr int n = 12;
+  std::vector<std::uint16_t> samples(n * n, 20000);
+  for (int x = 0; x < n; ++x) samples[static_cast<std::size_t>((n - 1) * n + x)] = 40000;
+  HeightFieldOptions o = options(Interpolation::bilinear);
+  const auto first_row = [&](const HeightField& field) { return field.sample({0.5, 0.5 / n}).height_m; };
+  const Vec2 side{1.2e-3, 1.2e-3};
+  const double low = -1e-4 + 2e-4 * 20000 / 65535, high = -1e-4 + 2e-4 * 40000 / 65535;
+  o.wrap = {Wrap::repeat, Wrap::clamp};
+  const HeightField ends(n, n, samples, o);
+  EXPECT_NEAR(first_row(ends.dilated(2e-4, side)), low, 1e-8);
+  o.wrap = {Wrap::clamp, Wrap::repeat};
+  const HeightField repeats(n, n, samples, o);
+  EXPECT_NEAR(first_row(repeats.dilated(2e-4, side)), high + std::sqrt(3.0) * 1e-4 - 2e-4, 1e-8);
+  // A groove one row wide at the border, rounded: its other bank is there only where rows repeat, below the parabola
+  // whose apex lies two rows further, (3² − 2²) p²/2R above the ground.
+  for (auto& v : samples) v = static_cast<std::uint16_t>(60000 - v);
+  o.wrap = {Wrap::repeat, Wrap::clamp};
+  const double top = -1e-4 + 2e-4 * 40000 / 65535;
+  EXPECT_NEAR(first_row(HeightField(n, n, samples, o).rounded(1e-3, side)), top, 1e-8);
+  o.wrap = {Wrap::clamp, Wrap::repeat};
+  const double bottom = -1e-4 + 2e-4 * 20000 / 65535;
+  EXPECT_NEAR(first_row(HeightField(n, n, samples, o).rounded(1e-3, side)), bottom + 5 * 1e-4 * 1e-4 / 2e-3, 1e-8);
+}
+
+/// The largest slope of a cubic over one step up is 5/4 · 2 of it, see extremes(); that of level ground is none.
+TEST(HeightField, SteepestSlopeOfAStepBetweenRowsAndOfLevelGround) {
+  std::vector<std::uint16_t> samples(6 * 8, 30000);
+  HeightFieldOptions o = options(Interpolation::bicubic);
+  o.scale_m = 65535e-6;
+  EXPECT_EQ(HeightField(6, 8, samples, o).steepest_m().x, 0);
+  EXPECT_EQ(HeightField(6, 8, samples, o).steepest_m().y, 0);
+  for (std::size_t i = 24; i < 48; ++i) samples[i] = 31000;
+  const HeightField step(6, 8, samples, o);
+  EXPECT_EQ(step.steepest_m().x, 0);
+  EXPECT_NEAR(step.steepest_m().y, 2.5 * 1000e-6, 1e-12);
 }
 
 TEST(HeightField, BlackOutwardTurnsTheReliefOver) {
@@ -124,10 +169,10 @@ TEST(HeightField, UvTransformIsTheExtensions) {
   HeightFieldOptions o = options(Interpolation::bilinear);
   o.uv_transform = {{0, 1}, std::numbers::pi / 2, {0.5, 0.5}};
   o.wrap = {Wrap::clamp, Wrap::clamp};
-  const auto samples = noise(4, 4, 9);
-  const HeightField turned(4, 4, samples, o);
+  const auto samples = noise(4, 6, 9);
+  const HeightField turned(4, 6, samples, o);
   o.uv_transform = {};
-  const HeightField plain(4, 4, samples, o);
+  const HeightField plain(4, 6, samples, o);
   for (double u = 0; u <= 1; u += 0.25)
     for (double v = 0; v <= 1; v += 0.25)
       EXPECT_NEAR(turned.sample({u, v}).height_m, plain.sample({0.5 * v, 1 - 0.5 * u}).height_m, 1e-12);
@@ -164,6 +209,40 @@ TEST(HeightField, DilationOfASpikeIsTheBall) {
     const double d = (i - 20) * side / n;
     const double expected = std::max(0.0, std::abs(d) <= r ? 3e-4 + std::sqrt(r * r - d * d) - r : 0.0);
     EXPECT_NEAR(wide.sample({(i + 0.5) / n, 20.5 / n}).height_m, expected, 3e-4 / 65535);
+  }
+}
+
+/// The ball is round on the surface, however the map is turned and stretched there.
+TEST(HeightField, DilationOfASpikeIsTheBallUnderATurnedTransform) {
+  constexpr int w = 30, h = 50;
+  constexpr double r = 1e-3;
+  std::vector<std::uint16_t> samples(w * h, 0);
+  samples[25 * w + 15] = 65535;
+  for (const Vec2 metres : {Vec2{2.5e-3, 5e-3}, Vec2{6e-3, 1.5e-3}}) {
+    HeightFieldOptions o;
+    o.scale_m = 3e-4;
+    o.interpolation = Interpolation::bilinear;
+    const UvTransform t{{0.3, 0.1}, 0.6, {0.8, 1.3}};
+    o.uv_transform = t;
+    o.wrap = {Wrap::clamp, Wrap::clamp};
+    const HeightField wide = HeightField(w, h, samples, o).dilated(r, metres);
+    const auto metres_of = [&](int x, int y) {
+      const double u = (x + 0.5) / w - t.offset.x, v = (y + 0.5) / h - t.offset.y;
+      const double c = std::cos(t.rotation), s = std::sin(t.rotation);
+      return Vec2{(c * u - s * v) / t.scale.x * metres.x, (s * u + c * v) / t.scale.y * metres.y};
+    };
+    int touched = 0;
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const Vec2 place = metres_of(x, y);
+        const double d = norm(place - metres_of(15, 25));
+        const double expected = d <= r ? std::max(0.0, 3e-4 + std::sqrt(r * r - d * d) - r) : 0;
+        touched += expected > 0;
+        EXPECT_NEAR(wide.sample({place.x / metres.x, place.y / metres.y}).height_m, expected, 2 * 3e-4 / 65535)
+            << metres.x << ' ' << x << ' ' << y;
+      }
+    EXPECT_GT(touched, 40);
+    EXPECT_LT(touched, w * h);
   }
 }
 
@@ -207,6 +286,20 @@ TEST(HeightField, RoundedPeaksHaveTheRadiusAndValleysStay) {
   // A parabola of the radius that hangs between the flanks of the sharp peak: it touches the corner at the foot.
   const double foot = std::sqrt(2 * 2e-4 * range);
   EXPECT_NEAR(at(round, 64, 9), foot * foot / (2 * radius), 2e-5);
+}
+
+/// Ridges along rows, of a map whose rows lie four times as close as its columns.
+TEST(HeightField, RidgesAcrossAreRoundedWithThePitchOfRows) {
+  constexpr int w = 16, h = 64;
+  constexpr double pitch = 5e-5, radius = 1e-3;
+  std::vector<std::uint16_t> samples(w * h, 0);
+  for (int x = 0; x < w; ++x) samples[static_cast<std::size_t>(32 * w + x)] = 65535;
+  HeightFieldOptions o;
+  o.scale_m = 1e-5;
+  o.interpolation = Interpolation::bilinear;
+  const HeightField round = HeightField(w, h, samples, o).rounded(radius, {w * 4 * pitch, h * pitch});
+  // A parabola of that radius over the ground beside the ridge, two rows apart.
+  EXPECT_NEAR(round.sample({0.5, 32.5 / h}).height_m, pitch * pitch / (2 * radius), 1e-9);
 }
 
 /// Second derivatives between the samples, where Catmull and Rom's cubics overshoot beside the grooves that rounding
@@ -280,6 +373,13 @@ TEST(HeightField, ShareSteeperThanASlope) {
   EXPECT_EQ(saw.share_steeper(0.5, side), 0.25);
   EXPECT_EQ(saw.share_steeper(0.1, side), 1);
   EXPECT_EQ(saw.share_steeper(0.5, {0.0064, 1}), 1);
+  // The same saw down the columns of an oblong map, whose texels are 1 mm high and 4 mm wide.
+  samples.clear();
+  for (int i = 0; i < 16 * 64; ++i) samples.push_back(static_cast<std::uint16_t>(i / 16 % 4 * 20000));
+  const HeightField down(16, 64, samples, o);
+  EXPECT_EQ(down.share_steeper(0.7, side), 0);
+  EXPECT_EQ(down.share_steeper(0.5, side), 0.25);
+  EXPECT_EQ(down.share_steeper(0.1, side), 1);
 }
 
 }  // namespace

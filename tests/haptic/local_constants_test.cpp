@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact_triangles.hpp"
 #include "haptic/contact_shapes.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/force_model.hpp"
@@ -53,6 +54,34 @@ TEST(LocalConstants, StiffnessIsThatOfThePlace) {
     proxy.update(probe, k_period);
     const double expected = 1e-3 * (100 + 800 * x / k_size);
     EXPECT_NEAR(heightfield_force(surface, proxy.state(), probe, {}).z, expected, 1e-4 * expected) << x;
+  }
+}
+
+/// The slope along the surface, on a triangle without a right angle whose texture is sheared.
+TEST(LocalConstants, SlopeOfTheStiffnessIsThatOfFiniteDifferences) {
+  ContactMesh mesh;
+  mesh.positions = {{0.01, 0.02, 0.03}, {0.06, 0.01, 0.05}, {0.03, 0.07, 0.02}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.corner_uv = {{0.3, 0.3}, {0.7, 0.4}, {0.4, 0.7}};
+  const ChannelField field(
+      2, 2, {{0, 0, 0}, {20000, 0, 0}, {50000, 0, 0}, {65535, 0, 0}},
+      {{MapChannel{Quantity::stiffness, 800, 100}, std::nullopt, std::nullopt}, {}, {Wrap::clamp, Wrap::clamp}});
+  ContactMaterial material;
+  material.channels = 0;
+  material.most_stiffness = 1e6;
+  const ContactTriangles triangles(mesh, {material}, {}, 0, {field});
+  const auto at = [&](double v, double w) {
+    return mesh.positions[0] + v * (mesh.positions[1] - mesh.positions[0]) +
+           w * (mesh.positions[2] - mesh.positions[0]);
+  };
+  constexpr double e = 1e-4;
+  const Vec3 slope = triangles.constants_at(0, at(0.3, 0.4)).stiffness_slope;
+  EXPECT_GT(norm(slope), 0);
+  for (const Vec2 way : {Vec2{e, 0}, Vec2{0, e}, Vec2{e, -e}}) {
+    const Vec3 one = at(0.3 - way.x, 0.4 - way.y), other = at(0.3 + way.x, 0.4 + way.y);
+    const double rise =
+        triangles.constants_at(0, other).constants.stiffness - triangles.constants_at(0, one).constants.stiffness;
+    EXPECT_NEAR(rise, dot(slope, other - one), 1e-3 * norm(slope) * norm(other - one));
   }
 }
 

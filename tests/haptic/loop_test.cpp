@@ -365,6 +365,29 @@ TEST(Stroke, StaysAtItsDepthAndSpeedOnASphere) {
   EXPECT_THROW(press_and_stroke(surface, 1, {}, {}), InvalidInput);
 }
 
+/// Counter-clockwise as seen from outside, on a plate that looks along +z and on one along -z.
+TEST(Stroke, CirclesTurnLeftWithTheirRadius) {
+  StrokeOptions options;
+  options.motion = Motion::circle;
+  options.circle_m = 0.015;
+  ContactMesh plate = testing::plate(10, 10, 0.1, 0.1);
+  for (const double side : {1.0, -1.0}) {
+    const Trajectory hand =
+        press_and_stroke(ContactSurface(plate, {ContactMaterial{}}, {}, 0), 0, {0.05, 0.05, 0}, options);
+    const auto& samples = hand.samples();
+    double turn = 0, way = 0;
+    for (std::size_t i = 3; i < samples.size(); ++i) {
+      const Vec3 before = samples[i - 1].position - samples[i - 2].position,
+                 after = samples[i].position - samples[i - 1].position;
+      turn += std::asin(side * cross(before, after).z / (norm(before) * norm(after)));
+      way += norm(after);
+    }
+    ASSERT_GT(way, 0.1);
+    EXPECT_NEAR(turn, way / options.circle_m, 1e-3 * turn) << side;
+    for (auto& triangle : plate.triangles) std::swap(triangle[1], triangle[2]);
+  }
+}
+
 TEST(Trajectory, ReadsCsvWithHeadingCommentsAndFurtherColumns) {
   const Trajectory t = parse_trajectory("t,x,y,z\n# comment\n0,1,2,3\r\n\n 0.5 , 2, 2 ,3, 9, text\n", "T.csv");
   ASSERT_EQ(t.samples().size(), 2U);

@@ -282,6 +282,27 @@ TEST_F(Player, VibrationIsWrittenAsSound) {
   // Full scale is 50 m/s2.
   EXPECT_NEAR(50 * std::sqrt(squares / told["samples"].get<double>()), told["rms_m_per_s2"].get<double>(), 0.05);
 
+  // What is full scale is asked for; up to half of it sound is linear, and loud parts keep both their signs.
+  const auto extremes = [&](double full_scale) {
+    const std::string file = (folder_ / "w.wav").string();
+    const Outcome other = play_glb({{"haptic", tag()}}, testing::sine_png(),
+                                   "--vibration '" + file + "' --full-scale " + std::to_string(full_scale));
+    EXPECT_EQ(other.code, 0) << other.error;
+    const std::string bytes = slurp(file);
+    std::pair<float, float> found{0, 0};
+    const std::size_t first = bytes.find("data") + 8;
+    for (std::size_t at_byte = first; at_byte + 4 <= bytes.size(); at_byte += 4) {
+      const float sample = at<float>(bytes, at_byte);
+      found = {std::min(found.first, sample), std::max(found.second, sample)};
+    }
+    return found;
+  };
+  const double peak = told["peak_m_per_s2"].get<double>();
+  const auto quiet = extremes(3 * peak), loud = extremes(0.2 * peak);
+  EXPECT_NEAR(std::max(-quiet.first, quiet.second), 1.0 / 3, 0.05);
+  EXPECT_LT(loud.first, -0.6F);
+  EXPECT_GT(loud.second, 0.6F);
+
   expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration x.mp3"), 2);
   expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration /nowhere/v.wav"), 3);
   expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration alsa:none-such"), 5);
@@ -429,6 +450,77 @@ TEST_F(Player, ProbeIsTheDevicesUnlessAskedOtherwise) {
   const Outcome plain = play_glb({{"haptic", tag()}}, testing::sine_png());
   EXPECT_EQ(plain.json()["probe_radius_mm"], 0.5);
   EXPECT_EQ(play_glb({{"haptic", tag()}}, testing::sine_png(), "--probe-radius 0").json()["probe_radius_mm"], 0);
+}
+
+TEST_F(Player, WavesShorterThanTwoTicksAreLeftOut) {
+  // Texels of 0.31 mm carry a wave of 2 · 0.1 / 150 m, and so do those of twice the size.
+  const auto coarser = [&](const char* rate) {
+    return play_glb({{"haptic", tag()}}, testing::sine_png(), std::string("--speed 0.1 --rate ") + rate)
+        .json()["left_out"]["maps_made_coarser"];
+  };
+  EXPECT_EQ(coarser("150"), 1);
+  EXPECT_EQ(coarser("170"), 0);
+}
+
+/// The plate lies in the plane y = 0: what is loaded around a place above it or far beside it is nothing.
+TEST_F(Player, OnlyWhatIsNearTheOriginIsLoaded) {
+  const std::string glb = "'" + write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png())) + "'";
+  expect_refusal(play(glb + " --device hid:ffff:fffe --origin 0.05,0,-0.05"), 5);
+  for (const char* far : {"5,0,-0.05", "0.05,5,-0.05", "0.05,0,-5"})
+    expect_refusal(play(glb + " --device hid:ffff:fffe --origin " + far), 3);
+}
+
+/// On a simulated device a real part is moved over as a file says.
+constexpr const char* k_still = "t,x,y,z\n0,0,0,0.01\n0.2,0,0,0.01\n";
+
+/// Numbers as an option takes them.
+std::string listed(const std::vector<Vec3>& points) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const Vec3& p : points) text << (text.tellp() > 0 ? "," : "") << p.x << ',' << p.y << ',' << p.z;
+  return text.str();
+}
+
+/// Touched points that lie 1 % farther from their middle than those of the part, elsewhere.
+TEST_F(Player, TellsHowWellARealPartIsFound) {
+  const std::vector<Vec3> part{{0.01, 0, -0.01}, {0.09, 0, -0.02}, {0.03, 0, -0.08}};
+  const Vec3 middle = (1.0 / 3) * (part[0] + part[1] + part[2]);
+  std::vector<Vec3> touched;
+  double squares = 0;
+  for (const Vec3& p : part) {
+    const Vec3 arm = p - middle;
+    const Vec3 longer = 1.01 * arm;
+    touched.push_back({0.3 + longer.z, 0.2 - longer.x, -0.4 - longer.y});  // Turned about all axes.
+    squares += dot(arm, arm) / 3;
+  }
+  const Outcome outcome = play_glb({{"haptic", tag()}}, testing::sine_png(),
+                                   "--surface real --trajectory '" + write("t.csv", k_still) + "' --touched " +
+                                       listed(touched) + " --part-points " + listed(part));
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NEAR(outcome.json()["registration_residual_mm"].get<double>(), 10 * std::sqrt(squares), 1e-3);
+}
+
+/// A part that looks along x has a direction in its plane, too.
+TEST_F(Player, ARealPlaneMayLookAnyWay) {
+  const std::string plate = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
+  std::uint32_t length = 0;
+  std::memcpy(&length, plate.data() + 12, 4);
+  Json gltf = Json::parse(plate.substr(20, length));
+  const std::string touched = listed({{0, 0, 0}, {0.05, 0, 0.01}, {0.02, 0.04, 0.03}});
+  for (const std::vector<double>& turn :
+       {std::vector{0.0, 0.0, 0.0, 1.0}, std::vector{0.0, 0.0, -std::sqrt(0.5), std::sqrt(0.5)},
+        std::vector{std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}) {
+    gltf["nodes"][0]["rotation"] = turn;
+    std::string json = gltf.dump();
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::string bin = plate.substr(20 + length);
+    const std::string glb =
+        plate.substr(0, 8) + testing::little_endian(static_cast<std::uint32_t>(20 + json.size() + bin.size()), 4) +
+        testing::little_endian(static_cast<std::uint32_t>(json.size()), 4) + plate.substr(16, 4) + json + bin;
+    const Outcome outcome = play("'" + write("t.glb", glb) + "' --seconds 0.2 --json - --surface real --trajectory '" +
+                                 write("t.csv", k_still) + "' --touched " + touched);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+  }
 }
 
 TEST_F(Player, FileThatChangesUnderItEndsItWithAReport) {

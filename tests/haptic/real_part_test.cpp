@@ -121,6 +121,9 @@ TEST(Registration, LaysAPlaneUponTheOther) {
   EXPECT_NEAR(found.to_part(touched[2]).z, 0, 1e-12);
   EXPECT_NEAR(found.to_part(touched[1]).x, 0.05, 1e-12);  // Along y, as was asked.
   EXPECT_LT(found.to_part(touched[2]).x, 0.05);           // The third one on the left of it.
+  // A direction that leans out of the plane counts as its part in it.
+  const Registration leaning = register_plane(touched, {0.05, 0.03, 0}, {0, 0, 1}, {0, 1, 2});
+  for (const Vec3 p : touched) EXPECT_LT(norm(leaning.to_part(p) - found.to_part(p)), 1e-12);
 }
 
 TEST(Registration, RefusesWhatTellsNoPlace) {

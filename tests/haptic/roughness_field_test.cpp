@@ -28,6 +28,18 @@ TEST(RoughnessField, HasTheHeightAskedForAndRepeats) {
   EXPECT_EQ(roughness_field(tag, {0.04, 0.04}, 7).sample({0.11, 0.2}).height_m, field.sample({0.11, 0.2}).height_m);
 }
 
+TEST(RoughnessField, RepeatsAfterItsLongestWaveAlongBothAxes) {
+  // 10 mm are a quarter of a unit of u and a third of one of v.
+  const HeightField field = roughness_field({2.3, 2e-5, {2e-4, 1e-2}}, {0.04, 0.03}, 7);
+  for (const double u : {0.03, 0.2})
+    for (const double v : {0.05, 0.31}) {
+      const double height = field.sample({u, v}).height_m;
+      EXPECT_NEAR(field.sample({u + 0.25, v}).height_m, height, 1e-12);
+      EXPECT_NEAR(field.sample({u, v + 1.0 / 3}).height_m, height, 1e-12);
+      EXPECT_GT(std::abs(field.sample({u, v + 0.25}).height_m - height), 1e-7);
+    }
+}
+
 /// An oblong relief of 96 × 60 texels of 0.5 × 0.4 mm: a wave along its rows.
 HeightField oblong() {
   std::vector<std::uint16_t> samples;
@@ -93,6 +105,30 @@ TEST(WithRoughness, WavesAreLongerAlongItsDirection) {
   const RoughnessTag tag{2.5, 2e-5, {1e-3, 4e-3}, 4, M_PI / 2, true};  // Along v.
   const HeightField rough = with_roughness(plain, tag, k_oblong_m, 5);
   EXPECT_GT(structure(rough, plain, {3e-4, 0}), 4 * structure(rough, plain, {0, 3e-4}));
+}
+
+TEST(WithRoughness, WavesAtAnObliqueDirectionAreLongerAlongIt) {
+  const HeightField plain = oblong();
+  const RoughnessTag tag{2.5, 2e-5, {1e-3, 4e-3}, 4, M_PI / 4, true};
+  const HeightField rough = with_roughness(plain, tag, k_oblong_m, 5);
+  EXPECT_GT(structure(rough, plain, {-3e-4, 3e-4}), 4 * structure(rough, plain, {3e-4, 3e-4}));
+}
+
+TEST(WithRoughness, IsTheSameAlongBothSidesOfAnOblongRelief) {
+  const HeightField plain = oblong();
+  double along_u = 0, along_v = 0;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    const HeightField rough = with_roughness(plain, {2.5, 2e-5, {1e-3, 8e-3}, 1, 0, true}, k_oblong_m, seed);
+    along_u += structure(rough, plain, {5e-4, 0}), along_v += structure(rough, plain, {0, 5e-4});
+  }
+  EXPECT_NEAR(along_u / along_v, 1, 0.15);
+}
+
+TEST(WithRoughness, TheFewerSamplesOfEitherSideAreRefined) {
+  // Texels of 0.25 × 0.8 mm: the shortest wave has four samples down a column.
+  const HeightField rough = with_roughness(oblong(), {2.5, 2e-5, {6e-4, 5e-3}}, {0.024, 0.048}, 3);
+  EXPECT_EQ(rough.width(), 6 * 96);
+  EXPECT_EQ(rough.height(), 6 * 60);
 }
 
 TEST(WithRoughness, RefusesWhatIsNoLength) {

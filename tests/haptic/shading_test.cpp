@@ -80,6 +80,26 @@ TEST(ForceShading, RemovesTheJumpsAtFacetEdges) {
   }
 }
 
+/// Normals are packed by the octant that they point to: a drum turned about all axes has some of each.
+TEST(ForceShading, IsTheSameHoweverTheDrumIsTurned) {
+  const auto turned = [](Vec3 v) {
+    return (1.0 / 3) * Vec3{v.x + 2 * v.y - 2 * v.z, 2 * v.x + v.y + 2 * v.z, 2 * v.x - 2 * v.y - v.z};
+  };
+  ContactMesh mesh = drum(24);
+  for (Vec3& p : mesh.positions) p = turned(p);
+  for (Vec3& n : mesh.corner_normals) n = turned(n);
+  ContactMaterial material;
+  material.shading = true;
+  const ContactSurface plain = surface_of(true, 0), other(mesh, {material}, {}, 0);
+  for (int i = 0; i < 48; ++i) {
+    const double angle = 0.13 * i;
+    const Vec3 out{std::cos(angle), std::sin(angle), 0};
+    const Vec3 place = k_radius * out + Vec3{0, 0, 0.3 * k_length};
+    EXPECT_LT(norm(other.shaded_normal(turned(place), turned(out)) - turned(plain.shaded_normal(place, out))), 1e-3)
+        << i;
+  }
+}
+
 TEST(ForceShading, SharpEdgesStaySharp) {
   // A ball around the rim: the force turns from radial to straight up as it does without shading.
   const ContactSurface plain = surface_of(false, 2e-3, 96), shaded = surface_of(true, 2e-3, 96);

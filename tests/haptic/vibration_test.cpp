@@ -85,6 +85,22 @@ TEST(Vibration, IsTheAccelerationOfAWave) {
   }
 }
 
+/// The filter's ripple of 0.1 dB lies as far above as below: at most half of it, 0.6 %, above.
+TEST(Vibration, IsNowhereStrongerThanHalfTheRipple) {
+  constexpr double amplitude = 5e-6;
+  double largest = 0;
+  for (double hz = 100; hz < 1000; hz *= 1.1) {
+    const double wave = 0.12 / std::round(0.12 * hz / 0.1), w = 2 * std::numbers::pi * 0.1 / wave;
+    VibrationOptions options;
+    options.rate_hz = 4000;
+    const double found =
+        tone_of(stroke(wavy_plate(wave, amplitude), options, 0.1, 1000, 0.4), 48000).amplitude / (amplitude * w * w);
+    largest = std::max(largest, found);
+  }
+  EXPECT_LT(largest, 1.0065);
+  EXPECT_GT(largest, 1);
+}
+
 TEST(Vibration, WavesBeyondTheBandAreNeitherFeltNorFoldedIntoIt) {
   constexpr double amplitude = 2e-6, wave = 1e-4, speed = 0.25;  // 2500 Hz, more than twice a tick's way
   const auto samples = stroke(wavy_plate(wave, amplitude), {}, speed, 100, 0.3);
@@ -98,6 +114,24 @@ TEST(Vibration, ALightHandIsThrownOffNoFasterThanItPresses) {
   const float most = *std::max_element(samples.begin(), samples.end());
   EXPECT_LE(most, load / VibrationOptions{}.effective_mass_kg);
   EXPECT_GT(most, 0.9 * load / VibrationOptions{}.effective_mass_kg);
+}
+
+/// Waves far steeper than the hand can follow, under a load that grows by 1 N a tick: every sample is held to the load
+/// of its own time, which comes two ticks late.
+TEST(Vibration, StrengthFollowsTheLoadWithinATick) {
+  const ContactSurface surface = wavy_plate(1e-3, 2e-4);
+  VibrationOptions options;
+  options.rate_hz = 100;
+  Vibration vibration(surface, options);
+  std::vector<float> samples;
+  for (int i = 0; i < 12; ++i) vibration.tick({{0.01 + 2e-3 * i, k_wide / 3, 1e-4}, 1.0 * i, true}, samples);
+  double closest = 0;
+  for (std::size_t i = 480 * 4; i < samples.size(); ++i) {
+    const double most = (static_cast<double>(i) / 480 - 2) / options.effective_mass_kg;
+    EXPECT_LE(std::abs(static_cast<double>(samples[i])), most * (1 + 1e-6)) << i;
+    closest = std::max(closest, std::abs(static_cast<double>(samples[i])) / most);
+  }
+  EXPECT_GT(closest, 0.9);
 }
 
 TEST(Vibration, ContactThatBeginsAndEndsClicksNot) {

@@ -151,6 +151,18 @@ Objects:  {
 				a: 0,1,2,3
 			}
 		}
+		LayerElementUV: 1 {
+			Version: 101
+			Name: "other"
+			MappingInformationType: "ByPolygonVertex"
+			ReferenceInformationType: "IndexToDirect"
+			UV: *8 {
+				a: 0.5,0.5,0.75,0.5,0.75,0.625,0.5,0.625
+			}
+			UVIndex: *4 {
+				a: 0,1,2,3
+			}
+		}
 		LayerElementMaterial: 0 {
 			Version: 101
 			Name: ""
@@ -171,12 +183,19 @@ Objects:  {
 				TypedIndex: 0
 			}
 		}
+		Layer: 1 {
+			Version: 100
+			LayerElement:  {
+				Type: "LayerElementUV"
+				TypedIndex: 1
+			}
+		}
 	}
 	Model: 20, "Model::seat", "Mesh" {
 		Version: 232
 		Properties70:  {
 			P: "RotationPivot", "Vector3D", "Vector", "",1,0,0
-			P: "Lcl Translation", "Lcl Translation", "", "A",10,0,0
+			P: "Lcl Translation", "Lcl Translation", "", "A",10,4,-3
 			P: "Lcl Rotation", "Lcl Rotation", "", "A",0,0,90
 		}
 	}
@@ -298,8 +317,9 @@ TEST_F(AssimpReader, FbxHasItsUnitAxisAndPivots) {
   EXPECT_EQ(scene.parts.at(0).mesh.triangles.size(), 2U);
   EXPECT_EQ(scene.parts[0].mesh.positions.size(), 4U);
   EXPECT_EQ(scene.parts[0].mesh.uv.values[scene.parts[0].mesh.uv.indices[0][1]], (Vec2{1, 0}));
-  EXPECT_NEAR(norm(first_corner(scene, 0) - 25.4 * Vec3{11, -1, 0}), 0, 1e-4)
-      << "0 0 0, turned a quarter about z around 1 0 0, and moved by 10 0 0";
+  EXPECT_NEAR(norm(first_corner(scene, 0) - 25.4 * Vec3{11, 3, -3}), 0, 1e-4)
+      << "0 0 0, turned a quarter about z around 1 0 0, and moved by 10 4 -3";
+  EXPECT_EQ(scene.parts[0].mesh.uv1.values[scene.parts[0].mesh.uv1.indices[0][1]], (Vec2{0.75, 0.5}));
   EXPECT_EQ(scene.materials.at(0).name, "leather");
   EXPECT_EQ(scene.materials[0].base_color, (std::array<double, 4>{0.5, 0.25, 0.125, 1}));
   EXPECT_NE(refusal("a.fbx", fbx("0")), "");

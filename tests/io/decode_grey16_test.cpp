@@ -44,6 +44,7 @@ TEST(DecodeRgb16, GreyIsEveryChannel) {
   EXPECT_EQ(rgb.bits, 8);
   using Texel = std::array<std::uint16_t, 3>;
   EXPECT_EQ(rgb.values, (std::vector<Texel>{{0x0101, 0x0101, 0x0101}, {0xffff, 0xffff, 0xffff}}));
+  EXPECT_EQ(decode_rgb16(as_bytes(test::k_grey8_alpha_png), "g").values, rgb.values) << "transparency is no colour";
   EXPECT_THROW(decode_rgb16({}, "g"), InvalidInput);
 }
 

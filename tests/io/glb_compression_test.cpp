@@ -283,6 +283,33 @@ TEST_F(GlbCompression, EveryCodecKeepsAllAttributesWithinTheirBounds) {
   }
 }
 
+/// Coordinates taller than wide, and pictures on the second ones.
+TEST_F(GlbCompression, SecondCoordinatesAreAsExactAsTheirPicturesNeed) {
+  Scene scene = compressible_scene();
+  for (Material& material : scene.materials) {
+    material.haptic->height->tex_coord = 1;
+    for (auto* texture : {&material.base_color_texture, &material.normal_texture})
+      if (*texture) (*texture)->tex_coord = 1;
+  }
+  for (TriangleMesh* mesh : {&scene.parts[0].mesh, &scene.parts[0].levels[0].mesh})
+    for (std::size_t i = 0; i < mesh->uv.values.size(); ++i) {
+      const Vec2 wide = mesh->uv.values[i];
+      mesh->uv.values[i] = mesh->uv1.values[i];
+      mesh->uv1.values[i] = {0.1 * wide.y, wide.x};
+    }
+  GlbWriteOptions options;
+  for (const auto& [name, coding] : k_codings) {
+    SCOPED_TRACE(name);
+    options.meshes = coding;
+    const Scene back = written(scene, options);
+    const auto here = corners_of(scene, use_by(scene, "seat")), there = corners_of(back, use_by(back, "seat"));
+    for (const auto& [number, corners] : here) {
+      const auto rounded = turned_like(corners, there.at(number));
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(rounded[k].uv1 - corners[k].uv1) * k_texels, 0.1);
+    }
+  }
+}
+
 /// Positions in the part's frame in millimetres and uv by the number of the triangle, as assimp reads a file.
 std::map<long, std::array<std::pair<Vec3, Vec2>, 3>> read_by_assimp(const std::filesystem::path& file,
                                                                     const std::string& mesh_name) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -165,6 +166,52 @@ TEST_F(GlbWriter, TangentsOnlyWhereANormalTextureNeedsThem) {
   EXPECT_FALSE(primitives[1]["attributes"].contains("TANGENT"));
 }
 
+TEST_F(GlbWriter, PicturesKeepAllThatPlacesThem) {
+  Scene scene = test::rich_scene();
+  scene.textures[0].wrap_t = 33648;
+  scene.materials[0].normal_texture->tex_coord = 1;
+  scene.materials[0].normal_texture->transform = UvTransform{{0.5, 0.25}, 0.3, {2, 3}};
+  const json attributes = document(scene)["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_TRUE(attributes.contains("TEXCOORD_1")) << "the texture needs coordinates";
+  const Scene back = round_trip(scene);
+  EXPECT_EQ(back.textures.at(0).wrap_s, 33071);
+  EXPECT_EQ(back.textures[0].wrap_t, 33648);
+  ASSERT_TRUE(back.materials.at(0).normal_texture);
+  EXPECT_EQ(back.materials[0].normal_texture->tex_coord, 1);
+  EXPECT_EQ(back.materials[0].normal_texture->transform, scene.materials[0].normal_texture->transform);
+}
+
+/// A quad whose second coordinates run along y and x: a mirror image.
+TEST_F(GlbWriter, TangentsAreThoseOfTheCoordinatesOfTheNormalMap) {
+  Scene scene = test::rich_scene();
+  scene.up = UpAxis::y;
+  TriangleMesh& mesh = scene.parts[0].mesh;
+  mesh = {};
+  mesh.positions = {{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {0, 10, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.uv.values = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.uv1.values = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+  mesh.uv.indices = mesh.uv1.indices = {{0, 1, 2}, {0, 2, 3}};
+  for (const int channel : {0, 1}) {
+    scene.materials[0].normal_texture->tex_coord = channel;
+    const json gltf = document(scene);
+    const json& accessor =
+        gltf["accessors"][gltf["meshes"][0]["primitives"][0]["attributes"]["TANGENT"].get<std::size_t>()];
+    const std::string bytes = content_of(folder_ / "a.glb");
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, 4);
+    const std::size_t begin =
+        28 + length +
+        gltf["bufferViews"][accessor["bufferView"].get<std::size_t>()].value("byteOffset", std::size_t{0});
+    ASSERT_EQ(accessor["count"], 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array<float, 4> tangent{};
+      std::memcpy(tangent.data(), bytes.data() + begin + 16 * i, 16);
+      EXPECT_EQ(tangent, (channel == 0 ? std::array<float, 4>{1, 0, 0, 1} : std::array<float, 4>{0, 1, 0, -1}));
+    }
+  }
+}
+
 /// The cube, all of it of the first material, whose tag holds a map of four bytes.
 Scene tagged_scene() {
   Scene scene = test::rich_scene();
@@ -209,6 +256,11 @@ TEST_F(GlbWriter, MirrorsFrictionAsPhysicsMaterials) {
   const json& material = gltf["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"].at(0);
   EXPECT_EQ(material["staticFriction"], 0.35) << "each other's default";
   EXPECT_EQ(material["dynamicFriction"], 0.35);
+  Scene rough = tagged_scene();
+  rough.materials[0].extras_json = R"({"haptic":{"version":1,"staticFriction":0.65}})";
+  const json other = document(rough, {.mirror_khr_physics = true})["extensions"]["KHR_physics_rigid_bodies"];
+  EXPECT_EQ(other["physicsMaterials"].at(0)["staticFriction"], 0.65);
+  EXPECT_EQ(other["physicsMaterials"].at(0)["dynamicFriction"], 0.65);
   int colliders = 0;
   for (std::size_t i = 0; i < gltf["nodes"].size(); ++i) {
     const json& node = gltf["nodes"][i];

@@ -47,6 +47,23 @@ TEST(GltfInstancing, EachPlaceBecomesAChildNode) {
   EXPECT_EQ(scene.parts[0].id, "seats/#0");
 }
 
+TEST(GltfInstancing, PlacesHaveAllThreeAxes) {
+  GlbFixture glb;
+  const int t = glb.accessor(glb.view(std::vector<float>{1, 2, 4, -3, 5, 7}), 5126, 2, "VEC3");
+  // Half a turn about z and one about x.
+  const int r = glb.accessor(glb.view(std::vector<float>{0, 0, 1, 0, 1, 0, 0, 0}), 5126, 2, "VEC4");
+  const int s = glb.accessor(glb.view(std::vector<float>{2, 3, 4, 5, 6, 7}), 5126, 2, "VEC3");
+  const TemporaryFolder folder;
+  const Scene scene =
+      read_gltf(folder.write("a.glb", instanced(glb, R"("TRANSLATION":)" + std::to_string(t) + R"(,"ROTATION":)" +
+                                                         std::to_string(r) + R"(,"SCALE":)" + std::to_string(s))));
+  const auto shown = instances(scene);
+  ASSERT_EQ(shown.size(), 2U);
+  const Vec3 p{1000, 1000, 1000};  // The node itself stands 1 m higher.
+  EXPECT_NEAR(norm(transform_point(shown[0].world, p) - Vec3{-1000, 0, 8000}), 0, 1e-6);
+  EXPECT_NEAR(norm(transform_point(shown[1].world, p) - Vec3{2000, 0, 0}), 0, 1e-6);
+}
+
 TEST(GltfInstancing, AttributesOfDifferentNumberAreRefused) {
   GlbFixture glb;
   const int t = glb.accessor(glb.view(std::vector<float>{0, 0, 0, 5, 0, 0}), 5126, 2, "VEC3");

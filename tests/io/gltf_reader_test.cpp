@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -141,6 +142,75 @@ TEST_F(GltfReader, NodeTransformsByMatrixAndTrs) {
     const Vec3 moved = transform_point(instances(*scene)[0].world, {1000, 0, 0});
     EXPECT_NEAR(norm(moved - Vec3{1000, 4000, 3000}), 0, 1e-9);
   }
+}
+
+/// v + 2 q × (q × v + w v), by its definition.
+Vec3 turned(const std::array<double, 4>& q, Vec3 v) {
+  const Vec3 axis{q[0], q[1], q[2]};
+  return v + 2 * cross(axis, cross(axis, v) + q[3] * v);
+}
+
+TEST_F(GltfReader, NodesTurnAboutAllAxesAndScaleUnevenly) {
+  GlbFixture binary;
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const Scene scene =
+      read(binary.glb(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"scenes":[{"nodes":[0]}],)"
+                      R"("nodes":[{"mesh":0,"translation":[1,2,-3],"rotation":[0.1,-0.5,0.7,0.5],"scale":[2,3,5]}],)"));
+  const std::array<double, 4> q{0.1, -0.5, 0.7, 0.5};  // Of length 1.
+  for (const Vec3 p : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{0.3, -0.7, 0.2}}) {
+    const Vec3 expected = Vec3{1, 2, -3} + turned(q, {2 * p.x, 3 * p.y, 5 * p.z});
+    EXPECT_NEAR(norm(transform_point(instances(scene)[0].world, 1000 * p) - 1000 * expected), 0, 1e-9);
+  }
+}
+
+TEST_F(GltfReader, TheLeastNormalizedByteIsMinusOne) {
+  GlbFixture binary;
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  binary.accessor(binary.view(std::vector<std::int8_t>{-128, -127, 127, 0, 64, -128}), 5120, 3, "VEC2",
+                  R"(,"normalized":true)");
+  const Scene scene =
+      read(binary.glb(R"("extensionsRequired":["KHR_mesh_quantization"],"extensionsUsed":["KHR_mesh_quantization"],)" +
+                      mesh_of(R"({"attributes":{"POSITION":0,"TEXCOORD_0":1}})")));
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  EXPECT_EQ(mesh.uv.values[mesh.uv.indices[0][0]], (Vec2{-1, 2}));
+  EXPECT_EQ(mesh.uv.values[mesh.uv.indices[0][1]], (Vec2{1, 1}));
+  EXPECT_EQ(mesh.uv.values[mesh.uv.indices[0][2]], (Vec2{64 / 127.0, 2}));
+}
+
+/// The scale of whole numbers goes into them: what hangs on the node stays where it is.
+TEST_F(GltfReader, ChildrenOfWholePositionsStayWhereTheyAre) {
+  GlbFixture binary;
+  binary.accessor(binary.view(std::vector<std::int16_t>{0, 0, 0, 4, 0, 0, 0, 4, 0}), 5122, 3, "VEC3");
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const Scene scene = read(binary.glb(
+      R"("extensionsRequired":["KHR_mesh_quantization"],"extensionsUsed":["KHR_mesh_quantization"],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},{"primitives":[{"attributes":{"POSITION":1}}]}],)"
+      R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"translation":[1,0,0],"scale":[0.5,0.5,0.5],"children":[1]},)"
+      R"({"mesh":1,"translation":[2,4,6]}],)"));
+  const auto shown = instances(scene);
+  ASSERT_EQ(shown.size(), 2U);
+  const Vec3 corner = transform_point(shown[1].world, {0, 0, 0}), far = transform_point(shown[1].world, {0, 0, 1000});
+  EXPECT_NEAR(norm(corner - Vec3{2000, 2000, 3000}), 0, 1e-9);
+  EXPECT_NEAR(norm(far - Vec3{2000, 2000, 3500}), 0, 1e-9);
+}
+
+TEST_F(GltfReader, TheSecondCoordinatesAndColoursOfVerticesAreTheirOwn) {
+  GlbFixture binary;
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  binary.accessor(binary.view(std::vector<std::uint16_t>{0, 65535, 13107, 52428, 65535, 0}), 5123, 3, "VEC2",
+                  R"(,"normalized":true)");
+  binary.accessor(binary.view(std::vector<float>{.1F, .2F, .3F, .4F, .5F, .6F, .7F, .8F, .9F, .1F, .2F, .6F}), 5126, 3,
+                  "VEC4");
+  const Scene scene = read(binary.glb(mesh_of(R"({"attributes":{"POSITION":0,"TEXCOORD_1":1,"COLOR_0":2}})")));
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  EXPECT_TRUE(mesh.uv.empty());
+  ASSERT_FALSE(mesh.uv1.empty() || mesh.colors.empty());
+  const Vec2 second = mesh.uv1.values[mesh.uv1.indices[0][1]];
+  EXPECT_NEAR(second.x, 0.2, 1e-6);
+  EXPECT_NEAR(second.y, 1 - 0.8, 1e-6);
+  const Color color = mesh.colors.values[mesh.colors.indices[0][1]];
+  EXPECT_NEAR(color.b, 0.7, 1e-5);
+  EXPECT_NEAR(color.a, 0.8, 1e-5);
 }
 
 TEST_F(GltfReader, RefusesBadNodeTrees) {
@@ -318,8 +388,9 @@ TEST_F(GltfReader, MaterialsKeepEverything) {
       R"("materials":[{"name":"m","extras":{"haptic":{"empty":[],"none":null,"big":4294967296}},
       "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"baseColorTexture":{"index":0,"texCoord":1,
       "extensions":{"KHR_texture_transform":{"offset":[0.5,0],"scale":[2,3],"rotation":0.25}}}},
-      "normalTexture":{"index":0,"scale":0.5},"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1}}}],
-      "textures":[{"source":0,"sampler":0,"extras":{"t":1}}],"samplers":[{"wrapS":33071,"magFilter":9728}],
+      "normalTexture":{"index":0,"scale":0.5},"emissiveTexture":{"index":0,
+      "extensions":{"KHR_texture_transform":{"offset":[0.5,0.25],"texCoord":1}}},"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1}}}],
+      "textures":[{"source":0,"sampler":0,"extras":{"t":1}}],"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}],
       "images":[{"uri":"data:image/png;base64,iVBORw0KGgo=","name":"i","extras":{"i":2}}],)";
   const Scene scene = read(triangle_glb("", members));
   ASSERT_EQ(scene.materials.size(), 2U) << "the primitive without material wears the default one";
@@ -333,11 +404,44 @@ TEST_F(GltfReader, MaterialsKeepEverything) {
   EXPECT_EQ(material.base_color_texture->transform->rotation, 0.25);
   EXPECT_EQ(material.normal_texture->factor, 0.5);
   EXPECT_EQ(scene.textures.at(0).wrap_s, 33071);
+  EXPECT_EQ(scene.textures[0].wrap_t, 33648);
   EXPECT_EQ(scene.textures[0].mag_filter, 9728);
+  ASSERT_TRUE(material.emissive_texture && material.emissive_texture->transform);
+  EXPECT_EQ(material.emissive_texture->tex_coord, 1) << "that of the transform";
+  EXPECT_EQ(material.emissive_texture->transform->offset, (Vec2{0.5, 0.25}));
+  EXPECT_EQ(material.emissive_texture->transform->scale, (Vec2{1, 1}));
   EXPECT_EQ(scene.textures[0].extras_json, R"({"t":1})");
   EXPECT_EQ(scene.images.at(0).bytes.size(), 8U) << "kept as it is, though it is no whole picture";
   EXPECT_EQ(scene.images[0].mime_type, "image/png");
   EXPECT_EQ(scene.images[0].extras_json, R"({"i":2})");
+}
+
+/// A scene has two coordinates: those of the tag become the second ones, and change places with these.
+TEST_F(GltfReader, CoordinatesOfATagChangePlacesWithTheSecondOnes) {
+  GlbFixture binary;
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  binary.accessor(binary.view(std::vector<float>{.1F, .1F, .1F, .1F, .1F, .1F}), 5126, 3, "VEC2");
+  binary.accessor(binary.view(std::vector<float>{.2F, .2F, .2F, .2F, .2F, .2F}), 5126, 3, "VEC2");
+  binary.accessor(binary.view(std::vector<float>{.3F, .3F, .3F, .3F, .3F, .3F}), 5126, 3, "VEC2");
+  GltfReadOptions options;
+  options.tag_channel = true;
+  const Scene scene = read_gltf(
+      folder_.write(
+          "a.glb",
+          binary.glb(
+              R"("materials":[{"extras":{"haptic":{"version":1,"stiffness":900,"height":{"image":0,"scale":2e-4,"texCoord":2}}},)"
+              R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}},"normalTexture":{"index":0,"texCoord":2},)"
+              R"("occlusionTexture":{"index":0}}],"textures":[{"source":0}],)"
+              R"("images":[{"uri":"data:image/png;base64,iVBORw0KGgo="}],)" +
+              mesh_of(R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":2,"TEXCOORD_2":3},"material":0})"))),
+      options);
+  const Material& material = scene.materials.at(0);
+  ASSERT_TRUE(material.haptic && material.haptic->height);
+  EXPECT_EQ(material.haptic->height->tex_coord, 1);
+  EXPECT_EQ(material.base_color_texture->tex_coord, 2);
+  EXPECT_EQ(material.normal_texture->tex_coord, 1);
+  EXPECT_EQ(material.occlusion_texture->tex_coord, 0);
+  EXPECT_NEAR(scene.parts[0].mesh.uv1.values.at(0).x, 0.3, 1e-6);
 }
 
 TEST_F(GltfReader, ExternalFilesWithSpacesAndUmlauts) {

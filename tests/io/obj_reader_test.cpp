@@ -141,6 +141,17 @@ TEST_F(ObjReader, MaterialsAndTextures) {
   EXPECT_EQ(scene.parts.at(0).mesh.material, (Values<std::uint32_t>{0, 1}));
 }
 
+TEST_F(ObjReader, ASingleScaleIsThatOfUAndGlowingPicturesAreScaledToo) {
+  write_png("a.png");
+  folder_.write("a.mtl", "newmtl a\nmap_Kd -s 2 a.png\nKe 1 1 1\nmap_Ke -s 3 5 1 -o 0.5 0.25 a.png\n");
+  const Scene scene = read("mtllib a.mtl\n" + k_square + "usemtl a\nf 1 2 3\n");
+  const Material& material = scene.materials.at(0);
+  ASSERT_TRUE(material.base_color_texture && material.base_color_texture->transform);
+  EXPECT_EQ(transform_uv(*material.base_color_texture->transform, {1, 1}), (Vec2{2, 1}));
+  ASSERT_TRUE(material.emissive_texture && material.emissive_texture->transform);
+  EXPECT_EQ(transform_uv(*material.emissive_texture->transform, {1, 1}), (Vec2{3.5, 5.25}));
+}
+
 TEST_F(ObjReader, MtlErrorsNameTheLine) {
   folder_.write("bad.mtl", "newmtl a\nKd 1 x 1\n");
   EXPECT_NE(refusal("mtllib bad.mtl\n" + k_square + "usemtl a\nf 1 2 3\n").find("bad.mtl: line 2"), std::string::npos);

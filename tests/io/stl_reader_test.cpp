@@ -104,6 +104,12 @@ TEST_F(StlReader, UnitAndAxis) {
   EXPECT_EQ(scene.parts[0].mesh.positions[1], (Vec3{25.4, 0, 0}));
   EXPECT_EQ(scene.unit, "in");
   EXPECT_EQ(scene.up, UpAxis::y);
+  const Scene text = read(
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 1 3\n"
+      "endloop\nendfacet\nendsolid\n",
+      options);
+  EXPECT_EQ(text.parts[0].mesh.corner(0, 1), (Vec3{50.8, 0, 0}));
+  EXPECT_EQ(text.parts[0].mesh.corner(0, 2), (Vec3{0, 25.4, 3 * 25.4}));
   EXPECT_THROW(read(binary_stl(k_square, 2), wrong), InvalidInput);
 }
 

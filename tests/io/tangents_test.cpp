@@ -35,6 +35,19 @@ TEST(Tangents, FollowUOfAnAffineMap) {
   }
 }
 
+/// Around a vertex u runs along x in a quarter and along x + y in another: half way between, in however many triangles
+/// the second quarter is cut.
+TEST(Tangents, WeighByAngleHoweverTheMeshIsCut) {
+  const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-0.5, 0.5, 0}, {-0.8, 0.2, 0}};
+  const std::vector<Vec2> uv = {{0, 0}, {1, 0}, {0, 1}, {-1, 1}, {-0.5, 1}, {-0.8, 1}};
+  const std::vector<Vec3> normals(6, {0, 0, 1});
+  const std::vector<Triangle> whole = {{0, 1, 2}, {0, 2, 3}}, cut = {{0, 1, 2}, {0, 2, 4}, {0, 4, 5}, {0, 5, 3}};
+  const Vec3 expected = normalized(Vec3{1, 0, 0} + normalized(Vec3{1, 1, 0}));
+  for (const auto& triangles : {whole, cut})
+    EXPECT_NEAR(norm(direction(vertex_tangents(positions, normals, uv, triangles)[0]) - expected), 0, 1e-6)
+        << triangles.size();
+}
+
 TEST(Tangents, WithoutUsableUvAnyPerpendicularUnitVector) {
   const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<Triangle> triangles = {{0, 1, 2}};

@@ -58,6 +58,24 @@ TEST(VertexNormals, ACylinderIsRoundAndItsRimsSharp) {
     }
 }
 
+TEST(VertexNormals, LargeTrianglesWeighMore) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 1, 0}, {3, 0.5, 0}, {-1, 0.5, -0.2}};
+  mesh.triangles = {{1, 0, 2}, {0, 1, 3}};
+  const auto normals = vertex_normals(mesh);
+  const Vec3 expected = normalized(Vec3{0, 0, 3} + cross(Vec3{0, 1, 0}, Vec3{-1, 0.5, -0.2}));
+  EXPECT_NEAR(norm(normals.values[normals.indices[0][0]] - expected), 0, 1e-12);
+  EXPECT_NEAR(norm(normals.values[normals.indices[1][1]] - expected), 0, 1e-12);
+}
+
+/// Two sheets that run along their common edge in the same direction are back to front.
+TEST(VertexNormals, OpposedTrianglesStaySharp) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0.1}};
+  mesh.triangles = {{0, 1, 2}, {0, 1, 3}};
+  EXPECT_EQ(vertex_normals(mesh).values.size(), 6U);
+}
+
 TEST(VertexNormals, DegenerateTrianglesGetSomeUnitNormal) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};

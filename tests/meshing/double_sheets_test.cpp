@@ -121,6 +121,12 @@ TEST(DoubleSheets, OfTwoTextureCoordinatesKeepBothSides) {
   EXPECT_EQ(repair(mesh).counts.opposites, 18u);
   for (std::size_t t = 18; t < 36; ++t) mesh.uv.indices[t] = {0, 0, 0};
   EXPECT_EQ(repair(mesh).counts.kept_backs, 18u);
+  TriangleMesh second = doubled(grid(3, 3));
+  set_uv_to_xy(second);
+  second.uv1 = second.uv;
+  EXPECT_EQ(repair(second).counts.opposites, 18u);
+  for (std::size_t t = 18; t < 36; ++t) second.uv1.indices[t] = {0, 0, 0};
+  EXPECT_EQ(repair(second).counts.kept_backs, 18u);
 }
 
 TEST(Repair, LeavesPiecesThatWouldMoveTooFar) {

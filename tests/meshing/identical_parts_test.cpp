@@ -108,6 +108,20 @@ TEST(FindIdenticalParts, AMirroredPartIsNotIdenticalUnlessItIsItsOwnMirrorImage)
   EXPECT_EQ(find({&original, &mirror, &twice})[2].original, 0u);
 }
 
+TEST(FindIdenticalParts, NormalsTurnWithTheirPart) {
+  std::mt19937 random(11);
+  TriangleMesh original = lump();
+  original.uv = {};
+  original.normals.values.clear();
+  for (const Vec3& p : original.positions) original.normals.values.push_back(normalized(p + Vec3{0.3, 0.1, -0.2}));
+  original.normals.indices = original.triangles;
+  const TriangleMesh copy = moved(original, random_rotation(random), {4, 5, -60});
+  EXPECT_EQ(find({&original, &copy})[1].original, 0u);
+  TriangleMesh other = copy;
+  other.normals.values[7] = normalized(other.normals.values[7] + Vec3{0.5, 0, 0});
+  EXPECT_EQ(find({&original, &other})[1].original, 1u);
+}
+
 TEST(FindIdenticalParts, NearlyIdenticalPartsAreDifferent) {
   std::mt19937 random(7);
   const TriangleMesh original = lump();
@@ -148,6 +162,10 @@ TEST(FindIdenticalParts, AttributesAndLabelsCount) {
   IdenticalOptions shape_only;
   shape_only.compare_attributes = false;
   EXPECT_EQ(find({&original, &other}, shape_only)[1].original, 0u);
+  TriangleMesh twice = original, second = original;
+  twice.uv1 = second.uv1 = original.uv;
+  second.uv1.values[2].y += 0.1;
+  EXPECT_EQ(find({&twice, &second})[1].original, 1u);
   TriangleMesh painted = original;
   painted.material.assign(painted.triangles.size(), 0);
   EXPECT_EQ(find({&original, &painted})[1].original, 0u);

@@ -56,6 +56,22 @@ TEST(Weld, UserToleranceClosesWiderGaps) {
   EXPECT_NEAR(result.max_deviation_mm, 0.1, 1e-12);
 }
 
+/// A sliver of 10 mm with an end of 0.01 mm; a border of 0.1 mm beside one of 10 mm.
+TEST(Weld, TheShortestEdgeAtEitherVertexIsWhatItMayMove) {
+  WeldOptions options;
+  options.tolerance_mm = 2;
+  TriangleMesh sliver;
+  sliver.positions = {{0, 0, 0}, {0.01, 0, 0}, {0, 10, 0}};
+  sliver.triangles = {{0, 1, 2}};
+  EXPECT_EQ(weld(sliver, options).mesh.triangles, sliver.triangles);
+  TriangleMesh fine, coarse;
+  fine.positions = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
+  coarse.positions = {{0.3, 0.3, 0}, {10, 0, 0}, {0, 10, 0}};
+  fine.triangles = coarse.triangles = {{0, 1, 2}};
+  EXPECT_EQ(weld(joined(fine, coarse), options).merged_near, 0u);
+  EXPECT_EQ(weld(joined(coarse, fine), options).merged_near, 0u);
+}
+
 TEST(Weld, RefusesBadOptions) {
   WeldOptions options;
   options.feature_fraction = 0.5;
@@ -235,6 +251,12 @@ TEST(Orient, InwardSolidTurnsButCavityStays) {
   TriangleMesh inner = cube();
   for (Vec3& p : inner.positions) p = 0.25 * p + Vec3{0.3, 0.3, 0.3};
   EXPECT_NEAR(signed_volume(orient(joined(cube(2), reversed(inner))).mesh), 1 - 0.015625, 1e-12);
+  // A solid within the cavity of another, twice as deep as the cavity, faces out again.
+  TriangleMesh cavity = cube(), core = cube();
+  for (Vec3& p : cavity.positions) p = 0.5 * p + Vec3{0.25, 0.25, 0.25};
+  for (Vec3& p : core.positions) p = 0.25 * p + Vec3{0.3, 0.35, 0.4};
+  const TriangleMesh nested = joined(joined(cube(2), reversed(cavity)), reversed(core));
+  EXPECT_NEAR(signed_volume(orient(nested).mesh), 1 - 0.125 + 0.015625, 1e-12);
   const TriangleMesh beside = joined(cube(2), reversed(moved(inner, {5, 0, 0})));
   EXPECT_NEAR(signed_volume(orient(beside).mesh), 1 + 0.015625, 1e-12);
 }

@@ -88,6 +88,14 @@ TEST(Repair, CountsWhatBecomesNothingByWelding) {
   test::expect_clean(result.mesh);
 }
 
+/// 1000.00005 mm and 1000 mm are two numbers of single precision, 1.00000005 m and 1 m are one.
+TEST(Repair, VerticesThatAFileInMetresHoldsAsOneAreOne) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1000, 0, 0}, {0, 1000, 0}, {1000.00005, 0, 0}, {1000, 1000, 0}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 2}};
+  EXPECT_EQ(repair(mesh, {.weld_mm = 0}).mesh.positions.size(), 4u);
+}
+
 TEST(Repair, MoebiusStripBecomesOrientable) {
   const RepairResult result = repair(moebius(30));
   test::expect_clean(result.mesh);

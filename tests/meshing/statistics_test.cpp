@@ -76,6 +76,7 @@ TEST(Statistics, OneReversedTriangleFlipsItsInnerEdges) {
   TriangleMesh mesh = cube(2);
   std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
   EXPECT_EQ(mesh_statistics(mesh).flipped_edges, 3u);
+  EXPECT_FALSE(mesh_statistics(mesh).volume_mm3.has_value()) << "it has no inside";
 }
 
 TEST(Statistics, TJunctionOfHalfEdge) {
@@ -85,6 +86,10 @@ TEST(Statistics, TJunctionOfHalfEdge) {
   EXPECT_EQ(mesh_statistics(mesh).t_junctions, 1u);
   mesh.positions[3].y = 1e-3;
   EXPECT_EQ(mesh_statistics(mesh).t_junctions, 0u);
+  for (const double end : {0.0, 2.0}) {  // A crack beside an end of the long edge.
+    mesh.positions[3] = {end + (end > 0 ? -1e-9 : 1e-9), 0, 0};
+    EXPECT_EQ(mesh_statistics(mesh).t_junctions, 0u) << end;
+  }
 }
 
 TEST(Statistics, DegenerateByRepeatedCornerAndByAltitude) {

@@ -9,6 +9,7 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla_test/shapes.hpp"
+#include "sample_points.hpp"
 
 namespace papilla {
 namespace {
@@ -127,12 +128,46 @@ TEST(MeasureReach, IsNotFooledByBoundingBoxes) {
 
 TEST(MeasureReach, PartsOutsideAreOutside) {
   const TriangleMesh cube = test::cube(1);
-  const std::vector<PlacedMesh> parts{{&cube}, {&cube, shifted(100, 0, 0)}};
+  // The last one lies over a corner of the box, its sides askew to all axes.
+  const std::vector<PlacedMesh> parts{
+      {&cube},
+      {&cube, shifted(100, 0, 0)},
+      {&cube, shifted(0, 100, 0)},
+      {&cube, shifted(0, 0, 100)},
+      {&cube, shifted(0, 0, -100)},
+      {&cube, {0.6, -0.48, 0.64, 3, 0.8, 0.36, -0.48, 3, 0, 0.8, 0.6, 5.5, 0, 0, 0, 1}}};
   const auto reach = measure_reach(parts, BoxVolume{{-5, -5, -5}, {5, 5, 5}});
   EXPECT_TRUE(reach[0].in_reach());
   EXPECT_EQ(reach[0].triangles_inside, 12u);
-  EXPECT_FALSE(reach[1].in_reach());
+  for (std::size_t i = 1; i < parts.size(); ++i) EXPECT_FALSE(reach[i].in_reach()) << i;
   EXPECT_EQ(reach[1].triangles, 12u);
+}
+
+TEST(PointIn, EyesAreSpreadEvenlyOverTheirVolume) {
+  constexpr int n = 20000;
+  const Vec3 low{-1, 2, 5}, size{4, 1, 10};
+  const BoxVolume box{low, low + size};
+  const SphereVolume ball{{10, 20, 30}, 4};
+  Vec3 mean;
+  double xy = 0, yz = 0, zx = 0, cubed = 0;
+  int near = 0, high = 0;
+  for (std::uint64_t i = 0; i < n; ++i) {
+    const Vec3 p = detail::point_in(box, i) - low;
+    const Vec3 share{p.x / size.x, p.y / size.y, p.z / size.z};
+    mean = mean + (1.0 / n) * share;
+    xy += (share.x - 0.5) * (share.y - 0.5) / n;
+    yz += (share.y - 0.5) * (share.z - 0.5) / n;
+    zx += (share.z - 0.5) * (share.x - 0.5) / n;
+    const Vec3 q = detail::point_in(ball, i) - ball.centre;
+    near += norm(q) < 2;
+    high += q.z > 2;
+    cubed += std::pow(norm(q) / 4, 3) / n;
+  }
+  EXPECT_LT(norm(mean - Vec3{0.5, 0.5, 0.5}), 1e-3);
+  for (const double product : {xy, yz, zx}) EXPECT_NEAR(product, 0, 4e-3) << "of 1/12 at most";
+  EXPECT_NEAR(near, n / 8.0, 0.01 * n) << "half the radius, an eighth of the volume";
+  EXPECT_NEAR(high, n * 5 / 32.0, 0.01 * n) << "the cap above half the radius";
+  EXPECT_NEAR(cubed, 0.5, 1e-3);
 }
 
 }  // namespace

@@ -10,10 +10,12 @@ What is made lies in ROOT/build/mutation: the copy, the times of the programs, r
 Exit codes: 0 done, survivors or not; 1 the list, the build or the tests without a fault are wrong; 2 usage; 130 interrupted.
 """
 import argparse
+import fnmatch
 import hashlib
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -23,7 +25,7 @@ from pathlib import Path
 
 FIELDS = ("id", "file", "find", "replace", "why")
 TIMES_UNMUTATED = 3  # A fault may make a loop endless.
-LEAST_SECONDS = 10  # Starting a short program takes longer on a busy machine.
+LEAST_SHARE = 0.01  # Of a second's processor time: a process with less waits.
 SECONDS_TO_END = 5
 COMPILER_SAYS = re.compile(r"\berror:|undefined reference|multiple definition")
 FAILED_CASE = re.compile(r"^\[  FAILED  \] (\S+?)[,. ]*(?:\(|$|,| where)", re.MULTILINE)
@@ -35,6 +37,35 @@ class Wrong(Exception):
 
 def digest(data):
     return hashlib.sha256(data).hexdigest()
+
+
+def words(file):
+    """The words of a source's name; those of its test are the same: stem_test.cpp."""
+    return set(Path(file).stem.removesuffix("_test").split("_"))
+
+
+def nearest(tests, names, file):
+    """Of `tests`, a map of names to their sources and seconds, those of the sources in `names`, else of those whose names
+    share most words with that of `file`."""
+    if names:
+        return [t for t, (source, _) in tests.items() if any(fnmatch.fnmatch(Path(source).stem, name) for name in names)]
+    wanted = words(file)
+    shares = {t: len(wanted & words(source)) / len(wanted | words(source)) for t, (source, _) in tests.items()}
+    most = max(shares.values(), default=0)
+    return [t for t, share in shares.items() if most > 0 and share == most]
+
+
+def processor_seconds(group):
+    """Of the processes in a group and of their children that ended."""
+    ticks = 0
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue  # It ended meanwhile.
+        if int(fields[2]) == group:
+            ticks += sum(int(ticks) for ticks in fields[11:15])
+    return ticks / os.sysconf("SC_CLK_TCK")
 
 
 class Project:
@@ -66,6 +97,11 @@ class Project:
         rows = [row for row in self.table["tests_of"] if file == row or file.startswith(row + "/")]
         return self.table["tests_of"][max(rows, key=len)] if rows else []
 
+    def nearest_sources(self, file):
+        """Names of test sources, without their suffix, in the row of tests_first with the longest path; often none."""
+        rows = [row for row in self.table["tests_first"] if file == row or file.startswith(row + "/")]
+        return self.table["tests_first"][max(rows, key=len)] if rows else []
+
     def check(self, tree):
         """Every breach of the list against the sources in `tree`, one line each."""
         breaches, seen = list(self.breaches), {}
@@ -85,6 +121,9 @@ class Project:
         for row, programs in self.table["tests_of"].items():
             breaches += [f"project.json: {row} is tested by {p}, which is no program" for p in programs
                          if p not in self.table["programs"]]
+        for row, names in self.table["tests_first"].items():
+            breaches += [f"project.json: no test {name} goes first for {row}" for name in names
+                         if not any((tree / "tests").glob(f"**/{name}.cpp"))]
         return breaches
 
     def matching(self, pattern):
@@ -125,6 +164,7 @@ class Copy:
         self.folder = project.root / "build" / "mutation"
         self.tree = self.folder / "tree"
         self.build_folder = self.tree / self.table["build_folder"]
+        self.told = self.folder / "tests.json"  # By the last run of a GoogleTest program.
         self.jobs = jobs
         self.commit = git(project.root, "rev-parse", "HEAD")
         self.tests = git(project.root, "rev-parse", "HEAD:tests")
@@ -141,7 +181,9 @@ class Copy:
             self.configure()
         self.times_file = self.folder / "times.json"
         known = json.loads(self.times_file.read_text()) if self.times_file.exists() else {}
-        self.times = known.get("seconds", {}) if known.get("commit") == self.commit else {}
+        # Of each program its seconds and, of GoogleTest, the source and the seconds of each test.
+        self.unmutated = known.get("programs", {}) if known.get("commit") == self.commit else {}
+        self.unsteady = known.get("unsteady", {}) if known.get("commit") == self.commit else {}
 
     def filled(self, words, work=None, targets=()):
         values = {"tree": self.tree, "build": self.build_folder, "work": work, "jobs": self.jobs}
@@ -154,24 +196,41 @@ class Copy:
         return {**os.environ, **{k: self.filled([v])[0] for k, v in self.table.get("environment", {}).items()}}
 
     def run(self, command, folder, limit=None):
-        """The exit code, None when it took longer than `limit`, and what was printed."""
+        """The exit code, or why it was ended; what was printed, and the processor time in seconds."""
         log = self.folder / "output.txt"
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         with open(log, "w+", errors="replace") as output:
             child = subprocess.Popen(command, cwd=folder, env=self.environment(), stdin=subprocess.DEVNULL, stdout=output,
                                      stderr=subprocess.STDOUT, start_new_session=True)
             try:
-                code = child.wait(limit)
-            except subprocess.TimeoutExpired:
-                code = None
+                code = self.wait(child, limit)
             finally:
                 if child.poll() is None:
                     end_group(child)
-        return code, log.read_text(errors="replace")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        return code, log.read_text(errors="replace"), seconds
+
+    def wait(self, child, limit):
+        """The exit code, or why it has to be ended. Other processes, a low priority and a machine that is frozen do not count:
+        a second is one that this process lived through, and what computes has a share of each."""
+        computed, waited = 0, 0
+        while True:
+            try:
+                return child.wait(1 if limit else None)
+            except subprocess.TimeoutExpired:
+                now = processor_seconds(child.pid)
+                waited += now - computed < LEAST_SHARE
+                computed = now
+                if computed > limit:
+                    return f"computes for longer than {limit:.0f} s"
+                if waited > self.table["least_seconds"]["waiting"]:
+                    return f"waits for longer than {waited:.0f} s"
 
     def configure(self):
         if not self.table["configure"]:
             return
-        code, output = self.run(self.filled(self.table["configure"]), self.tree)
+        code, output, _ = self.run(self.filled(self.table["configure"]), self.tree)
         if code != 0:
             shutil.rmtree(self.build_folder, ignore_errors=True)
             raise Wrong(f"the copy can't be configured:\n{output[-4000:]}")
@@ -179,45 +238,76 @@ class Copy:
     def build(self, programs):
         """What the build printed when it failed, else nothing."""
         targets = sorted({target for name in programs for target in self.table["programs"][name]["targets"]})
-        code, output = self.run(self.filled(self.table["build"], targets=targets), self.tree)
+        code, output, _ = self.run(self.filled(self.table["build"], targets=targets), self.tree)
         return output if code != 0 else None
 
-    def test(self, name, limit):
-        """What kills the program's run, or None when it passes, and its seconds."""
+    def command(self, name, asked, left_out, work):
+        """What runs a program; of GoogleTest those tests alone, or all but those."""
         program = self.table["programs"][name]
+        if "gtest" not in program:
+            return self.filled(program["run"], work)
+        left_out = [*left_out, *program.get("left_out", [])]
+        words = [program["gtest"], "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_output=json:{self.told}"]
+        if asked or left_out:
+            words.append("--gtest_filter=" + ":".join(asked) + ("-" + ":".join(left_out) if left_out else ""))
+        return self.filled(words, work)
+
+    def test(self, name, limit=None, asked=(), left_out=()):
+        """What kills the program's run, or None when it passes, and its processor seconds. A test of GoogleTest that fails
+        is asked once more, alone: one that passes then depends on the hour, and is left out from now on."""
         work = self.folder / "work" / name
-        shutil.rmtree(work, ignore_errors=True)
-        work.mkdir(parents=True)
-        if "gtest" in program:
-            command = self.filled([program["gtest"], "--gtest_fail_fast", "--gtest_brief=1"], work)
-        else:
-            command = self.filled(program["run"], work)
-        begin = time.monotonic()
-        code, output = self.run(command, work, limit)
-        seconds = time.monotonic() - begin
-        if code is None:
-            return f"{name} (longer than {limit:.0f} s)", seconds
-        if code == 0:
-            return None, seconds
-        if case := FAILED_CASE.search(output):
-            return f"{name}.{case[1]}", seconds
-        lines = output.strip().splitlines()
-        return f"{name} (exit code {code}{': ' + lines[-1][:160] if lines else ''})", seconds
+        while True:
+            shutil.rmtree(work, ignore_errors=True)
+            work.mkdir(parents=True)
+            unsteady = self.unsteady.setdefault(name, [])
+            code, output, seconds = self.run(self.command(name, asked, [*left_out, *unsteady], work), work, limit)
+            if code == 0:
+                return None, seconds
+            if isinstance(code, str):
+                return f"{name} ({code})", seconds
+            case = FAILED_CASE.search(output)
+            if not case:
+                lines = output.strip().splitlines()
+                return f"{name} (exit code {code}{': ' + lines[-1][:160] if lines else ''})", seconds
+            if "gtest" not in self.table["programs"][name] or self.run(self.command(name, [case[1]], [], work), work, limit)[0] != 0:
+                return f"{name}.{case[1]}", seconds
+            print(f"  unsteady, and left out: {name}.{case[1]}", flush=True)
+            unsteady.append(case[1])
 
     def measure(self, programs):
-        """Builds and runs the programs without a fault; their times are kept."""
-        unknown = [name for name in programs if name not in self.times]
+        """Builds and runs the programs without a fault; the times of their tests are kept."""
+        unknown = [name for name in programs if name not in self.unmutated]
         if (output := self.build(programs)) is not None:
             raise Wrong(f"without a fault the build fails:\n{output[-4000:]}")
         for name in unknown:
             print(f"  without a fault: {name}", flush=True)
-            killer, seconds = self.test(name, None)
+            killer, seconds = self.test(name)
             if killer:
                 raise Wrong(f"without a fault fails {killer}")
-            self.times[name] = seconds
-            self.times_file.write_text(json.dumps({"commit": self.commit, "seconds": self.times}))
+            tests = {}
+            if "gtest" in self.table["programs"][name]:
+                for suite in json.loads(self.told.read_text())["testsuites"]:
+                    tests |= {f"{suite['name']}.{t['name']}": [t["file"], float(t["time"].rstrip("s"))]
+                              for t in suite["testsuite"]}
+            self.unmutated[name] = {"seconds": seconds, "tests": tests}
+            self.times_file.write_text(
+                json.dumps({"commit": self.commit, "programs": self.unmutated, "unsteady": self.unsteady}))
 
-    def try_fault(self, fault, programs):
+    def rounds(self, programs, file, names):
+        """What is run for a fault, one after the other: program, tests, those left out, and the seconds without a fault."""
+        first, rest = [], []
+        for name in programs:
+            whole, tests = self.unmutated[name]["seconds"], self.unmutated[name]["tests"]
+            near = nearest(tests, names, file)
+            if near and len(near) < len(tests):
+                share = sum(tests[t][1] for t in near) / max(1e-3, sum(t[1] for t in tests.values()))
+                first.append((name, near, [], share * whole))
+                rest.append((name, [], near, whole))
+            else:
+                rest.append((name, [], [], whole))
+        return first + rest
+
+    def try_fault(self, fault, programs, names):
         """One of killed, survived and does not compile, and by what."""
         file = self.tree / fault["file"]
         source = file.read_bytes()
@@ -227,9 +317,9 @@ class Copy:
                 if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
                     return "does not compile", said[0].strip()
                 return "killed", "a program that does not start"  # Its cases are listed when it is linked.
-            for name in programs:
-                killer, _ = self.test(name, max(LEAST_SECONDS, TIMES_UNMUTATED * self.times[name]))
-                if killer:
+            for name, asked, left_out, seconds in self.rounds(programs, fault["file"], names):
+                limit = max(self.table["least_seconds"]["computing"], TIMES_UNMUTATED * seconds)
+                if killer := self.test(name, limit, asked, left_out)[0]:
                     return "killed", killer
             return "survived", ""
         finally:
@@ -315,7 +405,7 @@ def mutate(project, faults, arguments):
             copy.measure(sorted({name for fault in left for name in project.programs_of(fault["file"])}))
         for number, fault in enumerate(left, 1):
             begin = time.monotonic()
-            result, by = copy.try_fault(fault, project.programs_of(fault["file"]))
+            result, by = copy.try_fault(fault, project.programs_of(fault["file"]), project.nearest_sources(fault["file"]))
             results.add(fault, result, by, time.monotonic() - begin)
             print(f"[{number}/{len(left)}] {fault['id']}: {result}{' by ' + by if result == 'killed' else ''}", flush=True)
             if result == "does not compile":

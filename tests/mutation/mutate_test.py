@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """mutate.py on a project of a few lines: mutate_test.py COMPILER. Exit code 77: git or the compiler is missing."""
+import functools
 import json
 import shutil
 import signal
@@ -26,6 +27,26 @@ SURVIVES = {"id": "perimeter", "file": "src/size.cpp", "find": "width + height",
 UNCOMPILED = {"id": "syntax", "file": "src/size.cpp", "find": "width * height", "replace": "width *", "why": "none"}
 ENDLESS = {"id": "endless", "file": "src/size.cpp", "find": "return width * height;",
            "replace": "for (volatile int i = 0; i == 0;) {} return width * height;", "why": "none"}
+ASLEEP = {"id": "asleep", "file": "src/size.cpp", "find": "int area(int width, int height) {",
+          "replace": "extern \"C\" int pause();\nint area(int width, int height) { pause();", "why": "none"}
+# A program of two cases that understands the flags of GoogleTest and notes which of them are wanted.
+GTEST = """#!PYTHON
+import json, subprocess, sys
+flags = dict(a[2:].split("=", 1) for a in sys.argv[1:] if "=" in a)
+wanted = flags.get("gtest_filter", "*")
+with open("FOLDER/filters.txt", "a") as log:
+    log.write(wanted + chr(10))
+suites = []
+for suite, case, source in ("Size", "Area", "size_test.cpp"), ("Shape", "Corners", "shape_test.cpp"):
+    asked, _, left_out = wanted.partition("-")
+    if suite + "." + case not in left_out and (asked in ("", "*") or suite + "." + case in asked):
+        suites.append({"name": suite, "testsuite": [{"name": case, "file": source, "time": "0.5s"}]})
+json.dump({"testsuites": suites}, open(flags["gtest_output"].removeprefix("json:"), "w"))
+if any(s["name"] == "Size" for s in suites) and subprocess.run(["FOLDER/mutation/tree/build/toy/size"]).returncode != 0:
+    sys.exit("[  FAILED  ] Size.Area (0 ms)")
+if UNSTEADY and any(s["name"] == "Shape" for s in suites) and wanted != "Shape.Corners":
+    sys.exit("[  FAILED  ] Shape.Corners (0 ms)")
+"""
 
 
 class MutateTest(unittest.TestCase):
@@ -39,7 +60,9 @@ class MutateTest(unittest.TestCase):
         (self.root / ".gitignore").write_text("build/\n")
         table = {"build_folder": "build/toy", "configure": ["mkdir", "-p", "{build}"],
                  "build": [COMPILER, "src/size.cpp", "tests/size_test.cpp", "-o", "{build}/size"], "environment": {},
+                 "least_seconds": {"computing": 1, "waiting": 2}, "tests_first": {},
                  "programs": {"size": {"targets": ["size"], "run": ["{build}/size"]}}, "tests_of": {"src": ["size"]}}
+        self.table = table
         self.write("tests/mutation/project.json", json.dumps(table))
         self.git("init", "--quiet")
 
@@ -116,6 +139,8 @@ class MutateTest(unittest.TestCase):
         self.assertIn("without a fault fails size", err)
 
     def test_an_interrupted_run_leaves_no_fault(self):
+        self.table["least_seconds"]["computing"] = 120  # Longer than this test waits.
+        self.write("tests/mutation/project.json", json.dumps(self.table))
         self.commit(KILLED, ENDLESS)
         run = subprocess.Popen([sys.executable, MUTATE, self.root], stdout=subprocess.PIPE, text=True)
         end = time.monotonic() + 60
@@ -134,7 +159,48 @@ class MutateTest(unittest.TestCase):
 
     def test_what_never_ends_is_killed(self):
         self.commit(ENDLESS)
-        self.assertIn("endless: killed by size (longer than 10 s)", self.mutate()[1])
+        self.assertIn("endless: killed by size (computes for longer than 1 s)", self.mutate()[1])
+
+    def test_what_waits_for_ever_is_killed(self):
+        self.commit(ASLEEP)
+        self.assertIn("asleep: killed by size (waits for longer than 3 s)", self.mutate()[1])
+
+    def asked(self, *faults, unsteady=False, left_out=()):
+        """The filters of a GoogleTest program, run by run, and what was printed."""
+        folder = self.root / "build"
+        values = {"PYTHON": sys.executable, "FOLDER": str(folder), "UNSTEADY": str(unsteady)}
+        self.write("tests/size_gtest", functools.reduce(lambda text, name: text.replace(name, values[name]), values, GTEST))
+        (self.root / "tests" / "size_gtest").chmod(0o755)
+        self.table["programs"]["size"] = {"targets": ["size"], "gtest": "{tree}/tests/size_gtest", "left_out": list(left_out)}
+        self.write("tests/mutation/project.json", json.dumps(self.table))
+        self.commit(*faults)
+        folder.mkdir()
+        _, out, _ = self.mutate()
+        return (folder / "filters.txt").read_text().split(), out
+
+    def test_the_tests_named_after_a_file_are_asked_first(self):
+        filters, out = self.asked(KILLED, SURVIVES)
+        self.assertIn("area: killed by size.Size.Area", out)
+        self.assertIn("perimeter: survived", out)
+        self.assertEqual(filters, ["*", "Size.Area", "Size.Area", "Size.Area", "-Size.Area"])
+
+    def test_a_test_that_passes_the_second_time_is_left_out(self):
+        filters, out = self.asked(KILLED, unsteady=True)
+        self.assertIn("unsteady, and left out: size.Shape.Corners", out)
+        self.assertIn("area: killed by size.Size.Area", out)
+        self.assertEqual(filters, ["*", "Shape.Corners", "-Shape.Corners", "-Shape.Corners", "Size.Area"])
+
+    def test_tests_that_keep_pace_with_a_clock_are_never_asked(self):
+        filters, out = self.asked(KILLED, unsteady=True, left_out=["Shape.Corners"])
+        self.assertIn("area: killed by size.Size.Area", out)
+        self.assertEqual(filters, ["-Shape.Corners", "-Shape.Corners", "Size.Area-Shape.Corners"])
+
+    def test_a_row_says_which_tests_are_asked_first(self):
+        self.write("tests/shape_test.cpp", "")
+        self.table["tests_first"] = {"src/size.cpp": ["shape_test"]}
+        filters, out = self.asked(KILLED)
+        self.assertIn("area: killed by size.Size.Area", out)
+        self.assertEqual(filters, ["*", "Shape.Corners", "-Shape.Corners", "Size.Area"])  # What fails is asked again.
 
     def test_list_finds_breaches(self):
         self.commit(KILLED)
@@ -156,6 +222,9 @@ class MutateTest(unittest.TestCase):
             self.assertIn(said[name], err)
         self.commit(KILLED, KILLED)
         self.assertIn("is the id of", self.mutate("--list")[2])
+        self.table["tests_first"] = {"src/size.cpp": ["shape_test"]}
+        self.write("tests/mutation/project.json", json.dumps(self.table))
+        self.assertIn("no test shape_test goes first for src/size.cpp", self.mutate("--list")[2])
         self.assertFalse((self.root / "build").exists())
 
 

@@ -31,6 +31,48 @@ TEST(GrainDirection, LongestDirectionOfABar) {
   EXPECT_EQ(longest_direction({}), (Vec3{0, 0, 1}));
 }
 
+/// The second moments of a parallelogram are (a aᵀ + b bᵀ)/12 of its area, however it is cut.
+TEST(GrainDirection, LongestDirectionOfAParallelogramOfTwoTriangles) {
+  const Vec3 a{4, 1, -2}, b{1, 3, 1};
+  const double p = dot(a, a), q = dot(a, b), r = dot(b, b);
+  // The largest eigenvector of their Gram matrix, as a combination of a and b.
+  const double largest = 0.5 * (p + r) + std::hypot(0.5 * (p - r), q);
+  Vec3 expected = normalized(q * a + (largest - p) * b);
+  for (const bool other : {false, true}) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, a, b, a + b};
+    mesh.triangles = {{0, 1, 3}, {0, 3, 2}};
+    if (other) mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+    const Vec3 found = longest_direction(mesh);
+    EXPECT_NEAR(std::abs(dot(found, expected)), 1, 1e-9) << other;
+  }
+}
+
+/// An oblique triangle, flattened without distortion and turned at random.
+TEST(GrainDirection, IsExactOnTrianglesWithoutARightAngle) {
+  TriangleMesh mesh;
+  mesh.positions = {{1, 2, 3}, {5, 1, 4}, {2, 7, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const Vec3 p = mesh.positions[1] - mesh.positions[0], q = mesh.positions[2] - mesh.positions[0];
+  const Vec3 along = normalized(p), across = normalized(cross(cross(p, q), p));
+  Flattening f;
+  f.charts = {{0}, 1};
+  f.uv.indices = {{0, 1, 2}};
+  for (const Vec3 corner : mesh.positions) {
+    const double x = dot(corner - mesh.positions[0], along), y = dot(corner - mesh.positions[0], across);
+    f.uv.values.push_back({0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y});
+  }
+  const Vec3 wanted{0.2, -1, 0.7};
+  const Vec3 normal = normalized(cross(p, q)), v = normalized(wanted - dot(wanted, normal) * normal);
+  const CornerAttribute<Vec2> uv = turn_to_grain(mesh, f, wanted);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 edge = mesh.corner(0, static_cast<int>((k + 1) % 3)) - mesh.corner(0, static_cast<int>(k));
+    const Vec2 turned = uv.values[uv.indices[0][(k + 1) % 3]] - uv.values[uv.indices[0][k]];
+    EXPECT_NEAR(turned.y, dot(edge, v), 1e-12);
+    EXPECT_NEAR(turned.x, dot(edge, cross(v, normal)), 1e-12);
+  }
+}
+
 TEST(GrainDirection, VGrowsAlongItOnAllChartsThatHaveIt) {
   const TriangleMesh mesh = test::cube(4);
   const Flattening f = flatten_triplanar(mesh).flattening;
@@ -75,6 +117,16 @@ TEST(EdgeLoop, EdgeOfABoxEndsAtItsCorners) {
   ASSERT_EQ(edge.points.size(), 2u);
   EXPECT_EQ(edge.points[0], (Vec3{bounds.high.x, bounds.low.y, bounds.high.z}));
   EXPECT_EQ(edge.points[1], bounds.high);
+  // Those along z and x run up and to the right, too; each is picked at its middle.
+  for (const Vec3 along : {Vec3{0, 0, 1}, Vec3{1, 0, 0}})
+    for (const Vec3 corner : {bounds.low, bounds.high}) {
+      const Vec3 low = corner - dot(corner - bounds.low, along) * along,
+                 high = corner + dot(bounds.high - corner, along) * along;
+      const EdgeLoop other = edge_loop_near(mesh, 0.5 * (low + high));
+      ASSERT_EQ(other.points.size(), 2u);
+      EXPECT_EQ(other.points[0], low);
+      EXPECT_EQ(other.points[1], high);
+    }
   EdgeLoopOptions around;
   around.most_turn_deg = 91;
   EXPECT_TRUE(edge_loop_near(mesh, bounds.high, around).is_closed);

@@ -150,6 +150,18 @@ TEST(Measure, HomogeneitySeesTheJumpOfTheGradient) {
   EXPECT_NEAR(r.levy_homogeneity, std::sqrt(2.0 / 3 * n / interior), 1e-12);
 }
 
+TEST(Measure, HomogeneityWeighsAnEdgeByTheAreasOfBothItsTriangles) {
+  // Areas 1 and 3, and twice as fast on the right: the only jump is 1, less the scale that makes 7 of uv 4.
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 2, 0}, {-1, 1, 0}, {3, 1, 0}};
+  for (const bool small_first : {true, false}) {
+    mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+    if (!small_first) std::swap(mesh.triangles[0], mesh.triangles[1]);
+    const auto uv = uv_per_vertex(mesh, [](Vec3 p) { return Vec2{p.x < 0 ? p.x : 2 * p.x, p.y}; });
+    EXPECT_NEAR(measure_distortion(mesh, uv).levy_homogeneity, std::sqrt(4.0 / 7), 1e-12);
+  }
+}
+
 TEST(Measure, PercentilesAndMeansWeighByArea) {
   // Area 3 with σ = (1, 1), area 1 stretched: half and ninety percent fall on either side.
   const TriangleMesh mesh = squares(4);
@@ -162,6 +174,10 @@ TEST(Measure, PercentilesAndMeansWeighByArea) {
   EXPECT_NEAR(r.area_ratio.min, s2, 1e-12);
   EXPECT_NEAR(r.area_ratio.max, 4 * s2, 1e-12);
   EXPECT_NEAR(r.area_ratio.mean, 1, 1e-12);
+  // Green and Lagrange's strain is that of the way from uv to the surface: triangles weigh by their area in uv.
+  const double small = 2 * (1 / s2 - 1) * (1 / s2 - 1),
+               large = (1 / (16 * s2) - 1) * (1 / (16 * s2) - 1) + (1 / s2 - 1) * (1 / s2 - 1);
+  EXPECT_NEAR(r.green_lagrange, 0.75 * s2 * small + 0.25 * 4 * s2 * large, 1e-10);
 }
 
 TEST(Measure, StereographicSphereIsConformalInTheLimit) {
@@ -271,16 +287,16 @@ TEST(Measure, SeamAndPhaseJump) {
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k] = static_cast<Index>(uv.values.size());
       const Vec3 p = mesh.positions[t[k]];
-      uv.values.push_back({p.x + (centre > 10 ? 8.25 : 0), p.y});
+      uv.values.push_back({p.x + (centre > 10 ? 8.25 : 0), p.y + (centre > 10 ? 3.3 : 0)});
     }
     uv.indices.push_back(corners);
   }
   MeasureOptions options;
-  options.uv_per_texture = {4, 4};
+  options.uv_per_texture = {4, 3};
   const DistortionReport r = measure_distortion(mesh, uv, options);
   EXPECT_EQ(r.charts, 2u);  // equal values are one point, however they are indexed
   EXPECT_NEAR(r.seam_length_mm, 10, 1e-12);
-  EXPECT_NEAR(r.seam_phase_jump, 0.0625, 1e-12);  // 8.25 = 2 textures + 0.25
+  EXPECT_NEAR(r.seam_phase_jump, std::hypot(0.0625, 0.1), 1e-12);  // 8.25 = 2 · 4 + 0.25, 3.3 = 3 + 0.3
 }
 
 TEST(Measure, DegenerateTrianglesAreCountedAndGiveNoNan) {

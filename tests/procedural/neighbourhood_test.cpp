@@ -105,6 +105,17 @@ TEST(Neighbourhood, TheMeanOfASlantedPlaneIsThePlaneInAPictureThatIsNotSquare) {
       EXPECT_NEAR(at(mean, 48, x, y), (x + 0.5) / 21 + 3 * (y + 0.5) / 21, 0.01) << x << ' ' << y;
 }
 
+TEST(Neighbourhood, AnUprightMirrorImageHasTheSameMeansUpsideDown) {
+  // A radius of 58.5 texels takes blocks of 8: nine of them in 65 rows, which are not quite as high.
+  RenderOptions render;
+  render.width = 128, render.height = 65, render.channels = k_bump;
+  const std::vector<float> mean =
+      render_texture(compile_texture("base|bumpfunction=nearmean((2*y-1)^2,.9)", {}), render).values[Channel::bump];
+  for (const int x : {20, 64, 110})
+    for (int y = 0; y < 32; ++y) EXPECT_NEAR(at(mean, 128, x, y), at(mean, 128, x, 64 - y), 0.01) << x << ' ' << y;
+  EXPECT_GT(at(mean, 128, 64, 32), at(mean, 128, 64, 0) + 0.05);
+}
+
 TEST(Neighbourhood, LayersReadWhatTheLayersBelowGive) {
   // The second statistic rests on the first one, through a layer.
   const std::string base = "[base|bumpfunction=step(x,.5)]",

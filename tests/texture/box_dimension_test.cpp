@@ -20,6 +20,11 @@ constexpr Estimator k_estimators[] = {box_dimension, information_dimension, corr
 TEST(BoxDimension, PlanesHaveDimensionTwo) {
   const GreyImage flat = test::make_image(192, 192, [](int, int) { return 0.3; });
   for (const Estimator estimate : k_estimators) EXPECT_NEAR(estimate(flat).dimension, 2, 1e-9);
+  // Sides that no box divides.
+  for (const auto& [width, height] : {std::pair(197, 101), std::pair(101, 197)}) {
+    const GreyImage oblong = test::make_image(width, height, [](int, int) { return 0.3; });
+    EXPECT_NEAR(box_dimension(oblong).dimension, 2, 1e-9) << width;
+  }
   // A ramp of one grey level a pixel: the diagonal plane through all boxes.
   const GreyImage ramp = test::make_image(
       256, 256, [](int x, int) { return x / 255.0; }, 8);

@@ -62,6 +62,21 @@ TEST(Grain, SpheresAreSegmentsOfSpheres) {
   }
 }
 
+/// 5 columns of 22 mm and 11 rows of 10 mm; the first oval has its centre at (11, 5) mm and half axes of 9.24 and 4.2.
+TEST(Grain, OvalsAreSegmentsStretchedToTheirCells) {
+  const GrainResult grain = synthesize_grain(GrainKind::ovals6, {1100, 110, 1});
+  const double height = 1 / std::sqrt(9.24 * 4.2), radius = (1 + height * height) / (2 * height);
+  for (const double share : {-0.9, -0.4, 0.0, 0.6, 0.95}) {
+    const double expected = (std::sqrt(radius * radius - share * share) - (radius - height)) / height;
+    const auto at = [&](double x_mm, double y_mm) {
+      return grain.relief.at(static_cast<int>(std::lround(10 * x_mm - 0.5)),
+                             static_cast<int>(std::lround(10 * y_mm - 0.5)));
+    };
+    EXPECT_NEAR(at(11.05 + 9.24 * share, 5.05), expected, 0.03) << share;
+    EXPECT_NEAR(at(11.05, 5.05 + 4.2 * share), expected, 0.05) << share;
+  }
+}
+
 TEST(Grain, EveryKindFillsTheRangeAndIsRenderedFromItsRelief) {
   for (const std::string_view name : grain_names()) {
     const GrainOptions options{96, 12, 0.4, {-1, -0.5, 1}, 3};

@@ -40,6 +40,20 @@ TEST(HeightReference, StepScalesHeights) {
   EXPECT_THROW(scale_of_step(relief, 0.2, {8, 10}, {45, 12}), InvalidInput);
 }
 
+/// Between four pixels heights are bilinear: exact for a saddle, along any line.
+TEST(HeightReference, ProfilesMayRunObliquely) {
+  const auto heights = heights_of(60, 40, [](int x, int y) { return 0.01 * x * y; });
+  ProfileLine profile;
+  for (int i = 0; i <= 50; ++i) {
+    const double x = 5.3 + 0.91 * i, y = 7.6 + 0.47 * i;
+    profile.along_mm.push_back(0.1 * i);
+    profile.height_mm.push_back(0.04 * 0.01 * x * y);
+  }
+  const ProfileFit fit = fit_profile({60, 40, heights}, profile, {5.3, 7.6}, {5.3 + 0.91 * 50, 7.6 + 0.47 * 50});
+  EXPECT_NEAR(fit.scale, 0.04, 1e-6);
+  EXPECT_NEAR(fit.rms_mm, 0, 1e-6);
+}
+
 TEST(HeightReference, ProfileScalesHeightsWhateverTiltAndShift) {
   const auto heights = heights_of(60, 40, [](int x, int y) { return 2 * std::sin(0.3 * x) + 0.1 * y; });
   const PixelRelief relief{60, 40, heights};

@@ -22,6 +22,22 @@ TEST(LineFit, SlopeAndIntervalOfFourPoints) {
   EXPECT_NEAR(fit.half_width, 4.303 * std::sqrt(0.2 / 2 / 5), 1e-3);
 }
 
+TEST(LineFit, AWeightIsThatManyEqualPoints) {
+  const LineFit weighted = fit_line({0, 1, 2, 4}, {1, 2.5, 3, 8}, {1, 3, 2, 1}),
+                repeated = fit_line({0, 1, 1, 1, 2, 2, 4}, {1, 2.5, 2.5, 2.5, 3, 3, 8});
+  EXPECT_NEAR(weighted.slope, repeated.slope, 1e-12);
+  EXPECT_NEAR(weighted.intercept, repeated.intercept, 1e-12);
+}
+
+/// The jackknife of a mean is that mean's standard error: of 1, 2, 3, 6, 8 without one each.
+TEST(LineFit, TheJackknifeOfAMeanIsItsOwnInterval) {
+  const std::vector<double> values{1, 2, 3, 6, 8};
+  std::vector<double> without;
+  for (const double v : values) without.push_back((20 - v) / 4);
+  EXPECT_NEAR(jackknife_half_width(without), mean_interval(values).half_width, 1e-12);
+  EXPECT_NEAR(mean_interval(values).half_width, 2.776 * std::sqrt(34.0 / 4 / 5), 2e-3);
+}
+
 TEST(LineFit, AnIntervalOfADimensionEndsWhereDimensionsDo) {
   FractalEstimate estimate{2.9, 0.1};
   set_interval(estimate, 0.3);

@@ -67,6 +67,26 @@ TEST(PartRoughness, FindsTheDirectionOfTheWaves) {
   EXPECT_NEAR(parted.roughness->direction_rad, angle, 0.1);
 }
 
+/// Rows twice as far apart as columns, and half as high as wide.
+TEST(PartRoughness, KnowsThePitchesOfBothAxes) {
+  const HeightGrid surface = spectral_surface({.size = k_size, .hurst = 0.4, .seed = 11});
+  HeightMap map{k_size, 64, {}, k_pitch_mm, 2 * k_pitch_mm, true};
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < k_size; ++x) map.mm.push_back(static_cast<float>(0.01 * surface.at(x, 2 * y)));
+  const PartedRelief parted = part_roughness(map);
+  ASSERT_TRUE(parted.roughness) << parted.reason;
+  EXPECT_DOUBLE_EQ(parted.roughness->shortest_mm, 4 * k_pitch_mm);
+  std::vector<double> rough(map.mm.begin(), map.mm.end());
+  texture_detail::filter(rough, k_size, 64, true, [](double x, double y) {
+    return std::hypot(x / k_pitch_mm, y / (2 * k_pitch_mm)) < 1 ? 0 : 1;  // Waves longer than 1 mm.
+  });
+  for (std::size_t i = 0; i < rough.size(); ++i)
+    ASSERT_NEAR(static_cast<double>(map.mm[i]) - rough[i], static_cast<double>(parted.relief.mm[i]), 1e-6);
+  const PartedRelief whole = part_roughness(map, 20);
+  ASSERT_TRUE(whole.roughness) << whole.reason;
+  EXPECT_DOUBLE_EQ(whole.roughness->longest_mm, 64 * 2 * k_pitch_mm);
+}
+
 TEST(PartRoughness, LeavesCoarseReliefsAlone) {
   HeightMap coarse = wavy_and_rough(0.4, 0.01);
   coarse.pitch_mm_x = coarse.pitch_mm_y = 0.3;

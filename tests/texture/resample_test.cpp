@@ -49,6 +49,16 @@ TEST(Resample, OpenReliefsAreContinuedByReflection) {
   for (int x = 0; x < 16; ++x) EXPECT_NEAR(half.at(x, 0), std::cos(std::numbers::pi * (x + 0.5) / 16), 1e-6);
 }
 
+TEST(Resample, TheMiddlePartLiesInTheMiddleOfBothSides) {
+  const GreyImage image = test::make_image(30, 20, [](int x, int y) { return 0.01 * x + 0.0001 * y; });
+  const GreyImage part = middle_part(image, 8);
+  ASSERT_EQ(part.width, 8);
+  ASSERT_EQ(part.height, 8);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) EXPECT_EQ(part.at(x, y), image.at(11 + x, 6 + y)) << x << ' ' << y;
+  EXPECT_EQ(middle_part(image, 25).height, 20);
+}
+
 TEST(Resample, SameSizeIsTheSameAndBadSizesAreRefused) {
   const HeightMap source = waves(10, 12);
   EXPECT_EQ(resample(source, 10, 12).mm, source.mm);

@@ -22,6 +22,10 @@ TEST(Roughness, RmsOfASine) {
   EXPECT_FALSE(roughness.fractal.has_value());  // Below 32 rows.
   EXPECT_DOUBLE_EQ(roughness.shortest_wavelength_mm, 0.2);
   EXPECT_DOUBLE_EQ(roughness.longest_wavelength_mm, 1.6);
+  HeightMap tall = sine;
+  tall.pitch_mm_y = 0.5;
+  EXPECT_DOUBLE_EQ(measure_roughness(tall).shortest_wavelength_mm, 1);
+  EXPECT_DOUBLE_EQ(measure_roughness(tall).longest_wavelength_mm, 6.4);
 }
 
 TEST(Roughness, FractalDimensionOfAnExactSurface) {

@@ -120,6 +120,23 @@ TEST(SlopeLimit, BordersAreOpenOrAroundTheSeam) {
     EXPECT_LE(std::abs(result.relief.at(0, y) - result.relief.at(31, y)), k_pitch_mm * (1 + 1e-5));
 }
 
+/// A wall between rows that lie twice as far apart as columns, with one at the border of the tile.
+TEST(SlopeLimit, RowsHaveTheirOwnPitchAndTheirOwnSeam) {
+  HeightMap wall = relief_of(8, 64, true, [](int, int y) { return y < 32 ? 0.0 : 0.4; });
+  wall.pitch_mm_y = 2 * k_pitch_mm;
+  const SlopeLimitResult result = limit_slope(wall, {.max_slope = 1});
+  EXPECT_NEAR(result.steepest_before, 0.4 / (2 * k_pitch_mm), 1e-5);
+  EXPECT_NEAR(result.share_before, 2.0 / 64, 1e-12);
+  for (int y = 0; y < 64; ++y) {
+    const double step = std::abs(height_mm(result.relief, 3, (y + 1) % 64) - height_mm(result.relief, 3, y));
+    EXPECT_LE(step, 2 * k_pitch_mm * (1 + 1e-5)) << y;
+    const double expected = std::clamp(0.2 + (y - 31.5) * 2 * k_pitch_mm, 0.0, 0.4);
+    if (y > 8 && y < 56) {
+      EXPECT_NEAR(result.relief.at(3, y), expected, 0.01) << y;
+    }
+  }
+}
+
 TEST(SlopeLimit, TraceFallsToTheLimit) {
   const GrainResult grain = synthesize_grain(GrainKind::quads8, {.size_px = 128, .size_mm = 10, .height_mm = 0.6});
   const SlopeLimitResult result = limit_slope(grain.relief, {.max_slope = 0.6});
