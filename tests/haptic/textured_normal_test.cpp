@@ -144,6 +144,25 @@ TEST(TexturedNormal, ABallFeelsTheSurfaceOfItsCentre) {
   }
 }
 
+/// A ball of 0.5 mm at 0.56 mm from a plate whose relief stands out by 0.1 mm: straight above it touches by 0.04 mm,
+/// beside the edge, where the relief is felt by the cosine, it does not.
+TEST(TexturedNormal, BesideAnEdgeTheReliefStandsOutByTheCosine) {
+  constexpr double radius = 5e-4, distance = 5.6e-4, cosine = 0.3;
+  HeightFieldOptions options;
+  options.scale_m = 1e-4;
+  const ContactSurface surface(testing::plate(24, 18, k_width, k_depth), {textured()},
+                               {HeightField(4, 4, std::vector<std::uint16_t>(16, 65535), options)}, radius);
+  const auto way = [&](Vec3 probe) {
+    ProxyState state;
+    state.in_contact = true;
+    state.normal = {0, 0, 1};
+    state.proxy = {probe.x, probe.y, 2e-3};
+    return way_to_textured_surface(surface, state, probe);
+  };
+  EXPECT_NEAR(norm(way({0.01, 0.013, distance}) - Vec3{0, 0, 4e-5}), 0, 1e-7);
+  EXPECT_EQ(way({-distance * std::sqrt(1 - cosine * cosine), 0.013, distance * cosine}), Vec3{});
+}
+
 TEST(TexturedNormal, NothingIsFeltAboveTheTexturedSurface) {
   for (const Sine& sine : k_reliefs) {
     const ContactSurface surface = plate_of(sine);
