@@ -50,7 +50,7 @@ constexpr std::size_t k_near_starts = 2;
 
 /// As often charts are halved where no seam cost is low enough, and the part of its energy that a chart is thought to
 /// lose by that.
-constexpr int k_halvings = 12;
+constexpr int k_halvings = 8;
 constexpr double k_halved = 0.5;
 
 void check(const DistortionBound& bound) {
