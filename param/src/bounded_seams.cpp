@@ -50,7 +50,7 @@ constexpr std::size_t k_near_starts = 2;
 
 /// As often charts are halved where no seam cost is low enough, and the part of its energy that a chart is thought to
 /// lose by that.
-constexpr int k_halvings = 8;
+constexpr int k_halvings = 6;
 constexpr double k_halved = 0.5;
 
 /// Charts of fewer triangles are not halved: a bound that asks for that asks for triangles one by one.
