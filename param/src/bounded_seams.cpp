@@ -53,9 +53,6 @@ constexpr std::size_t k_near_starts = 2;
 constexpr int k_halvings = 6;
 constexpr double k_halved = 0.5;
 
-/// Charts of fewer triangles are not halved: a bound that asks for that asks for triangles one by one.
-constexpr std::size_t k_least_triangles = 16;
-
 void check(const DistortionBound& bound) {
   const auto refuse = [](const std::string& what) { throw InvalidInput("keep_bound: " + what); };
   if (!(bound.most >= 4 && std::isfinite(bound.most)))
@@ -189,16 +186,14 @@ class BoundKeeper {
   std::vector<std::uint32_t> worth_halving(const SeamState& state) const {
     const ChartSet& charts = state.charted.flattening.charts;
     std::vector<double> area(charts.count, 0), excess(charts.count, 0);
-    std::vector<std::size_t> triangles(charts.count, 0);
     for (std::size_t t = 0; t < charts.of_triangle.size(); ++t) {
       area[charts.of_triangle[t]] += mesh_.rest[t].area;
       excess[charts.of_triangle[t]] += state.excess[t];
-      ++triangles[charts.of_triangle[t]];
     }
     const double most = bound_.most - 4 + k_bound_slack;
     std::vector<std::uint32_t> worst;
     for (std::uint32_t c = 0; c < charts.count; ++c)
-      if (triangles[c] >= k_least_triangles && !(excess[c] <= most * area[c])) worst.push_back(c);
+      if (!(excess[c] <= most * area[c])) worst.push_back(c);
     std::stable_sort(worst.begin(), worst.end(), [&](auto a, auto b) { return excess[a] > excess[b]; });
     if (bound_.percentile) return worst;
     double left = state.energy - most * mesh_.area;
