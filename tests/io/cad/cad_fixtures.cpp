@@ -18,6 +18,7 @@
 #include <XCAFDimTolObjects_DimensionObject.hxx>
 #include <XCAFDimTolObjects_GeomToleranceObject.hxx>
 #include <XCAFDoc_Area.hxx>
+#include <XCAFDoc_Centroid.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DimTolTool.hxx>
 #include <XCAFDoc_Dimension.hxx>
@@ -122,7 +123,22 @@ void CadFile::flatness(const TDF_Label& part, const TopoDS_Shape& face, double v
   tool->SetGeomTolerance(on, label);
 }
 
-void CadFile::validation(const TDF_Label& part, double area, double volume) {
+void CadFile::range(const TDF_Label& part, const TopoDS_Shape& face, double low, double high) {
+  const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
+  const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
+  const TDF_Label label = tool->AddDimension();
+  Handle(XCAFDoc_Dimension) attribute;
+  label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute);
+  const Handle(XCAFDimTolObjects_DimensionObject) object = attribute->GetObject();
+  object->SetType(XCAFDimTolObjects_DimensionType_Size_Diameter);
+  object->SetUpperBound(high);
+  object->SetLowerBound(low);
+  attribute->SetObject(object);
+  tool->SetDimension(on, label);
+}
+
+void CadFile::validation(const TDF_Label& part, double area, double volume, const gp_Pnt& centroid) {
+  XCAFDoc_Centroid::Set(part, centroid);
   XCAFDoc_Area::Set(part, area);
   XCAFDoc_Volume::Set(part, volume);
 }

@@ -6,6 +6,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <filesystem>
+#include <gp_Pnt.hxx>
 #include <gp_Trsf.hxx>
 #include <string>
 
@@ -28,7 +29,9 @@ class CadFile {
   void diameter(const TDF_Label& part, const TopoDS_Shape& face, double value, double upper, double lower);
   /// A flatness tolerance on a face of the part.
   void flatness(const TDF_Label& part, const TopoDS_Shape& face, double value);
-  void validation(const TDF_Label& part, double area, double volume);
+  /// A diameter between two values.
+  void range(const TDF_Label& part, const TopoDS_Shape& face, double low, double high);
+  void validation(const TDF_Label& part, double area, double volume, const gp_Pnt& centroid);
   void write_step(const std::filesystem::path& path, const std::string& schema = "AP214IS",
                   const std::string& unit = "MM");
 

@@ -182,10 +182,12 @@ TEST_F(CadMetadata, MaterialAndDensity) {
 
 TEST_F(CadMetadata, ValidationProperties) {
   CadFile file;
-  file.validation(file.add("box", box()), 2200, 6000);
+  file.validation(file.add("box", box()), 2200, 6000, {5, 10, 15});
   const json validation = json::parse(write_and_read(file).parts.at(0).extras_json).at("validation");
   EXPECT_NEAR(validation.at("area_mm2").get<double>(), 2200, 1e-6);
   EXPECT_NEAR(validation.at("volume_mm3").get<double>(), 6000, 1e-6);
+  for (const std::size_t i : {0u, 1u, 2u})
+    EXPECT_NEAR(validation.at("centroid_mm").at(i).get<double>(), 5.0 * static_cast<double>(i + 1), 1e-9);
 }
 
 TEST_F(CadMetadata, UserDefinedProperties) {
@@ -225,12 +227,24 @@ TEST_F(CadMetadata, PmiBecomesText) {
   EXPECT_EQ(pmi[0].at("type"), "diameter");
   EXPECT_NEAR(pmi[0].at("value").get<double>(), 10, 1e-9);
   EXPECT_NEAR(pmi[0].at("upper_tolerance").get<double>(), 0.05, 1e-9);
+  EXPECT_NEAR(std::abs(pmi[0].at("lower_tolerance").get<double>()), 0.02, 1e-9);
   EXPECT_EQ(pmi[0].at("faces"), json({0}));
   EXPECT_EQ(pmi[1].at("type"), "flatness");
   EXPECT_NEAR(pmi[1].at("value").get<double>(), 0.01, 1e-9);
   EXPECT_EQ(pmi[1].at("faces"), json({1}));
   EXPECT_TRUE(std::any_of(scene.losses.begin(), scene.losses.end(),
                           [](const std::string& loss) { return loss.starts_with("PMI"); }));
+}
+
+TEST_F(CadMetadata, RangesKeepBothTheirEnds) {
+  const TopoDS_Shape shape = BRepPrimAPI_MakeCylinder(5, 20).Shape();
+  CadFile file;
+  file.range(file.add("pin", shape), face_of(shape, 0), 9.5, 10.25);
+  const Scene scene = write_and_read(file, "AP242DIS");
+  const json pmi = json::parse(scene.parts.at(0).extras_json).at("pmi");
+  ASSERT_EQ(pmi.size(), 1u);
+  EXPECT_NEAR(pmi[0].at("lower_bound").get<double>(), 9.5, 1e-9);
+  EXPECT_NEAR(pmi[0].at("upper_bound").get<double>(), 10.25, 1e-9);
 }
 
 TEST_F(CadMetadata, DrawnAnnotationsKeepTheirNames) {

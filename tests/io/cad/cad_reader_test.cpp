@@ -183,6 +183,22 @@ TEST_F(CadReader, InchesBecomeMillimetres) {
   EXPECT_NEAR(volume(scene.parts.at(0).mesh), 6000, 1e-6);
 }
 
+TEST_F(CadReader, UnitsAreToldAndCounted) {
+  const struct {
+    const char *name, *unit;
+    double mm;
+  } cases[] = {{"CM", "cm", 10}, {"FT", "ft", 304.8}, {"INCH", "inch", 25.4}, {"M", "m", 1000}};
+  for (const auto& [name, unit, mm] : cases) {
+    CadFile file;
+    file.add("box", box());
+    file.write_step(folder_ / "box.step", "AP214IS", name);
+    const Scene scene = read_cad(folder_ / "box.step");
+    EXPECT_EQ(scene.unit, unit);
+    EXPECT_EQ(scene.millimetres_per_unit, mm) << name;
+    EXPECT_NEAR(volume(scene.parts.at(0).mesh), 6000, 1e-6) << name;
+  }
+}
+
 TEST_F(CadReader, FaceColoursBecomeMaterialSlots) {
   const TopoDS_Shape shape = box();
   CadFile file;
