@@ -15,7 +15,7 @@ struct FreeArray {
 };
 
 /// Numbers without a value yet, for solvers. A large one lies on pages of 2 MiB where the system has such: it clears
-/// what it gives page by page, and a factorization of 50,000 unknowns would wait as long for that as it computes.
+/// what it gives page by page, and a factorization of 100,000 unknowns would wait as long for that as it computes.
 template <class Scalar>
 using LargeArray = std::unique_ptr<Scalar[], FreeArray>;
 

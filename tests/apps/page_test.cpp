@@ -93,12 +93,17 @@ TEST(PageMesh, KeepsTheSecondChannelWhereItIsNeeded) {
   EXPECT_EQ(meshes[0].uv1_high, (Vec2{2, 1}));
 }
 
-TEST(PageScene, TellsWhatLiesOnTheSecondChannelAndWhatBrowsersDoNotShow) {
+/// Of one part with one material.
+Scene plate_on_both_channels() {
   Part part;
   part.mesh = grid(2, 1);
   part.mesh.uv1 = part.mesh.uv;
   part.materials = {0};
-  Scene scene = single_part_scene(std::move(part), "test");
+  return single_part_scene(std::move(part), "test");
+}
+
+TEST(PageScene, TellsWhatLiesOnTheSecondChannelAndWhatBrowsersDoNotShow) {
+  Scene scene = plate_on_both_channels();
   Material material;
   material.base_color_texture = TextureReference{0, 1, 1, {}};
   material.normal_texture = TextureReference{1, 0, 1, {}};
@@ -180,11 +185,7 @@ TEST(PageMesh, VerticesComeBackFromTheStreams) {
 }
 
 TEST(PageScene, KnowsWhichWayIsUpAndWhatLiesOnTheSecondCoordinates) {
-  Part part;
-  part.mesh = grid(2, 1);
-  part.mesh.uv1 = part.mesh.uv;
-  part.materials = {0};
-  Scene scene = single_part_scene(std::move(part), "test");
+  Scene scene = plate_on_both_channels();
   Material material;
   material.normal_texture = TextureReference{0, 1, 1, {}};
   scene.materials = {material};

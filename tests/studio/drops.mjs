@@ -25,8 +25,16 @@ try {
     const { studio: s } = globalThis, found = [];
     const wanted = s.library.filter(({ name }) => name.startsWith('leather/')).slice(0, most);
     const frame = () => new Promise((done) => requestAnimationFrame(done));
+    // The last full picture is drawn, too: that begins some frames after nothing is coarse any more.
+    const rest = async () => {
+      const { view } = s;
+      for (let still = 0; still < 20; ++still) {
+        await frame();
+        if (view.pace.isCoarse || view.pace.fence || view.levels.missing > 0) still = -1;
+      }
+    };
     for (const { name } of wanted) {
-      while (s.view.pace.isCoarse || s.view.pace.fence || s.view.levels.missing > 0) await frame();  // At rest again.
+      await rest();
       const of = () => s.state.surfaces.find((x) => x.label === label), key = s.keyOf(of()), begin = performance.now();
       await s.apply({ library: name }, [key]);
       const answered = performance.now();

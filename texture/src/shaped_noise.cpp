@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shaped_noise.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,11 +15,11 @@ namespace {
 
 void multiply_spectrum(RealFft2d& fft, int width, int height, double norm,
                        const std::function<double(double, double)>& gain) {
-  std::complex<double>* value = fft.spectrum();
-  for (int v = 0; v < height; ++v) {
+  oneapi::tbb::parallel_for(0, height, [&](int v) {
     const double y = static_cast<double>(2 * v <= height ? v : v - height) / height;
-    for (int u = 0; u <= width / 2; ++u, ++value) *value *= norm * gain(static_cast<double>(u) / width, y);
-  }
+    std::complex<double>* row = fft.spectrum() + static_cast<std::ptrdiff_t>(v) * (width / 2 + 1);
+    for (int u = 0; u <= width / 2; ++u) row[u] *= norm * gain(static_cast<double>(u) / width, y);
+  });
 }
 
 }  // namespace

@@ -274,6 +274,11 @@ Grain StudioScene::grain_of(const std::string& key, const MaterialRule& rule) {
   return grains_.front().second;
 }
 
+bool StudioScene::is_new_map(const StudioWish& wish, const std::string& unwrap) {
+  const std::scoped_lock lock(mapped_mutex_);
+  return mapped_.insert(std::to_string(wish.part) + "/" + std::to_string(wish.slot) + " " + unwrap).second;
+}
+
 StudioSurface StudioScene::as_read(std::uint32_t part, std::uint32_t slot) const {
   Scene scene = piece(part, slot, {});
   StudioSurface surface;
@@ -299,10 +304,13 @@ BakeResult StudioScene::bake_piece(const StudioPlan& plan, const StudioWish& wis
   const WholeScene whole{context_, in_place_};
   Scene scene = piece(wish.part, wish.slot, wish.label);
   if (!rule.texture.empty()) {
+    const Json material = parse_json(wish.rule, plan.rules.source);
     Grain grain;
-    oneapi::tbb::parallel_invoke(
-        [&] { grain = grain_of(grain_key(parse_json(wish.rule, plan.rules.source)) + wish.files, rule); },
-        [&] { map_ahead(scene, rules, rule, options_, whole); });
+    oneapi::tbb::parallel_invoke([&] { grain = grain_of(grain_key(material) + wish.files, rule); },
+                                 [&] {
+                                   if (is_new_map(wish, material.value("unwrap", Json()).dump()))
+                                     map_ahead(scene, rules, rule, options_, whole);
+                                 });
     grain.solid = grain.solid && paints;
     maker.put(rule.name, std::move(grain));
   }

@@ -95,7 +95,8 @@ void CadFile::material(const TDF_Label& label, const std::string& name, double d
                     text("POSITIVE_RATIO_MEASURE"));
 }
 
-void CadFile::diameter(const TDF_Label& part, const TopoDS_Shape& face, double value, double upper, double lower) {
+void CadFile::dimension(const TDF_Label& part, const TopoDS_Shape& face,
+                        const std::function<void(XCAFDimTolObjects_DimensionObject&)>& fill) {
   const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
   const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
   const TDF_Label label = tool->AddDimension();
@@ -103,11 +104,24 @@ void CadFile::diameter(const TDF_Label& part, const TopoDS_Shape& face, double v
   label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute);
   const Handle(XCAFDimTolObjects_DimensionObject) object = attribute->GetObject();
   object->SetType(XCAFDimTolObjects_DimensionType_Size_Diameter);
-  object->SetValue(value);
-  object->SetUpperTolValue(upper);
-  object->SetLowerTolValue(lower);
+  fill(*object);
   attribute->SetObject(object);
   tool->SetDimension(on, label);
+}
+
+void CadFile::diameter(const TDF_Label& part, const TopoDS_Shape& face, double value, double upper, double lower) {
+  dimension(part, face, [&](XCAFDimTolObjects_DimensionObject& object) {
+    object.SetValue(value);
+    object.SetUpperTolValue(upper);
+    object.SetLowerTolValue(lower);
+  });
+}
+
+void CadFile::range(const TDF_Label& part, const TopoDS_Shape& face, double low, double high) {
+  dimension(part, face, [&](XCAFDimTolObjects_DimensionObject& object) {
+    object.SetUpperBound(high);
+    object.SetLowerBound(low);
+  });
 }
 
 void CadFile::flatness(const TDF_Label& part, const TopoDS_Shape& face, double value) {
@@ -121,20 +135,6 @@ void CadFile::flatness(const TDF_Label& part, const TopoDS_Shape& face, double v
   object->SetValue(value);
   attribute->SetObject(object);
   tool->SetGeomTolerance(on, label);
-}
-
-void CadFile::range(const TDF_Label& part, const TopoDS_Shape& face, double low, double high) {
-  const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
-  const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
-  const TDF_Label label = tool->AddDimension();
-  Handle(XCAFDoc_Dimension) attribute;
-  label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute);
-  const Handle(XCAFDimTolObjects_DimensionObject) object = attribute->GetObject();
-  object->SetType(XCAFDimTolObjects_DimensionType_Size_Diameter);
-  object->SetUpperBound(high);
-  object->SetLowerBound(low);
-  attribute->SetObject(object);
-  tool->SetDimension(on, label);
 }
 
 void CadFile::validation(const TDF_Label& part, double area, double volume, const gp_Pnt& centroid) {

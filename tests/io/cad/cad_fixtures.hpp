@@ -6,11 +6,14 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <filesystem>
+#include <functional>
 #include <gp_Pnt.hxx>
 #include <gp_Trsf.hxx>
 #include <string>
 
 #include "papilla/io/scene.hpp"
+
+class XCAFDimTolObjects_DimensionObject;
 
 namespace papilla::test {
 
@@ -39,6 +42,9 @@ class CadFile {
   void write_step_with_part_files(const std::filesystem::path& path);
 
  private:
+  void dimension(const TDF_Label& part, const TopoDS_Shape& face,
+                 const std::function<void(XCAFDimTolObjects_DimensionObject&)>& fill);
+
   Handle(TDocStd_Document) document_;
 };
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -192,6 +193,8 @@ class StudioScene {
   BakeResult bake_piece(const StudioPlan& plan, const StudioWish& wish, bool paints, const ProgressCallback& progress);
   Scene piece(std::uint32_t part, std::uint32_t slot, const std::string& name) const;
   Grain grain_of(const std::string& key, const MaterialRule& rule);
+  /// Whether a surface is mapped in this way for the first time. @param unwrap  of its material, as JSON.
+  bool is_new_map(const StudioWish& wish, const std::string& unwrap);
   bool is_only_of_its_name(std::uint32_t part) const;
   std::shared_ptr<const DecalPicture> decal_picture(const std::filesystem::path& file) const;
   /// @param texts of the document's decals, one each.
@@ -220,6 +223,8 @@ class StudioScene {
   PartContext context_;
   bool in_place_ = false;
   bool shares_copies_ = true;  ///< The bake does.
+  std::mutex mapped_mutex_;
+  std::set<std::string> mapped_;  ///< Surfaces, with the "unwrap" of their material, whose map the cache was given.
   std::mutex grains_mutex_;
   std::list<std::pair<std::string, Grain>> grains_;  ///< By what they are made of; used last, first.
   mutable std::mutex pictures_mutex_;
