@@ -34,6 +34,10 @@ async function pick(page) {
   const in3d = await text(page, '#picked');
   const part = in3d.split(':')[0];
   await page.locator('#tab-uv').click();
+  await page.waitForFunction(() => {  // The layout is fitted once the browser has told its size, after a frame of the scene.
+    const { width, height, clientWidth, clientHeight } = document.getElementById('canvasuv');
+    return width === clientWidth && height === clientHeight;
+  });
   const uv = await page.locator('#canvasuv').boundingBox();
   let linked = in3d;
   for (const [x, y] of [[0.5, 0.5], [0.4, 0.4], [0.6, 0.6], [0.3, 0.5], [0.5, 0.3]]) {
