@@ -181,8 +181,8 @@ class Copy:
             self.configure()
         self.times_file = self.folder / "times.json"
         known = json.loads(self.times_file.read_text()) if self.times_file.exists() else {}
-        # Of each program its seconds and, of GoogleTest, the source and the seconds of each test.
-        self.unmutated = known.get("programs", {}) if known.get("commit") == self.commit else {}
+        # Of each program what it was made of, its seconds and, of GoogleTest, the source and the seconds of each test.
+        self.unmutated = known.get("programs", {})
         self.unsteady = known.get("unsteady", {}) if known.get("commit") == self.commit else {}
 
     def filled(self, words, work=None, targets=()):
@@ -274,12 +274,23 @@ class Copy:
             print(f"  unsteady, and left out: {name}.{case[1]}", flush=True)
             unsteady.append(case[1])
 
+    def made_of(self, name):
+        """Digest of a program: the files that its command names, what its targets built, and what all programs read."""
+        program = self.table["programs"][name]
+        files = [Path(word) for word in self.filled(program.get("run") or [program["gtest"]])]
+        files += [self.build_folder / "bin" / target for target in program["targets"]]
+        for pattern in self.table.get("read_by_all", []):
+            files += sorted(self.tree.glob(pattern))
+        return digest("".join(f"{f.name} {digest(f.read_bytes())}\n" for f in files if f.is_file()).encode())
+
     def measure(self, programs):
-        """Builds and runs the programs without a fault; the times of their tests are kept."""
-        unknown = [name for name in programs if name not in self.unmutated]
+        """Builds and runs the programs without a fault; the times of their tests are kept as long as they are the same."""
         if (output := self.build(programs)) is not None:
             raise Wrong(f"without a fault the build fails:\n{output[-4000:]}")
-        for name in unknown:
+        for name in programs:
+            made_of = self.made_of(name)
+            if self.unmutated.get(name, {}).get("made_of") == made_of:
+                continue
             print(f"  without a fault: {name}", flush=True)
             killer, seconds = self.test(name)
             if killer:
@@ -289,7 +300,7 @@ class Copy:
                 for suite in json.loads(self.told.read_text())["testsuites"]:
                     tests |= {f"{suite['name']}.{t['name']}": [t["file"], float(t["time"].rstrip("s"))]
                               for t in suite["testsuite"]}
-            self.unmutated[name] = {"seconds": seconds, "tests": tests}
+            self.unmutated[name] = {"made_of": made_of, "seconds": seconds, "tests": tests}
             self.times_file.write_text(
                 json.dumps({"commit": self.commit, "programs": self.unmutated, "unsteady": self.unsteady}))
 
@@ -313,11 +324,13 @@ class Copy:
         source = file.read_bytes()
         try:
             file.write_text(source.decode().replace(fault["find"], fault["replace"]))
-            if (output := self.build(programs)) is not None:
-                if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
-                    return "does not compile", said[0].strip()
-                return "killed", "a program that does not start"  # Its cases are listed when it is linked.
+            built = set()
             for name, asked, left_out, seconds in self.rounds(programs, fault["file"], names):
+                if name not in built and (output := self.build([name])) is not None:
+                    if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
+                        return "does not compile", said[0].strip()
+                    return "killed", "a program that does not start"  # Its cases are listed when it is linked.
+                built.add(name)
                 limit = max(self.table["least_seconds"]["computing"], TIMES_UNMUTATED * seconds)
                 if killer := self.test(name, limit, asked, left_out)[0]:
                     return "killed", killer

@@ -184,6 +184,18 @@ class MutateTest(unittest.TestCase):
         self.assertIn("perimeter: survived", out)
         self.assertEqual(filters, ["*", "Size.Area", "Size.Area", "Size.Area", "-Size.Area"])
 
+    def test_a_program_that_is_the_same_is_run_once_without_a_fault(self):
+        before = len(self.asked(SURVIVES)[0])
+        log = self.root / "build" / "filters.txt"
+        self.write("tests/note.txt", "Of another test.")  # What survived is asked again.
+        self.commit(SURVIVES)
+        _, out, _ = self.mutate()
+        self.assertNotIn("without a fault", out)
+        self.assertEqual(log.read_text().split()[before:], ["Size.Area", "-Size.Area"])
+        self.write("tests/size_gtest", (self.root / "tests" / "size_gtest").read_text() + "# Another program.\n")
+        self.commit(SURVIVES)
+        self.assertIn("without a fault: size", self.mutate()[1])
+
     def test_a_test_that_passes_the_second_time_is_left_out(self):
         filters, out = self.asked(KILLED, unsteady=True)
         self.assertIn("unsteady, and left out: size.Shape.Corners", out)
