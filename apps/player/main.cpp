@@ -39,6 +39,7 @@
 #include "report.hpp"
 #include "standard_output.hpp"
 #include "vibration_output.hpp"
+#include "workspace.hpp"
 
 namespace {
 
@@ -71,7 +72,6 @@ constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
 constexpr double k_longest_way_m = 1000;    // Of a synthetic motion, which is computed before the first tick.
 constexpr double k_default_reach_m = 0.15;  // More than the radius of every workspace.
-constexpr double k_clearance_m = 0.01;      // Default distance of a workspace's centre from the surface.
 
 const std::map<std::string, Motion> k_motions = {
     {"stroke", Motion::stroke}, {"circle", Motion::circle}, {"slide", Motion::slide}, {"tap", Motion::tap}};
@@ -122,16 +122,6 @@ Trajectory make_hand(const Options& options, const HapticScene& scene, const Con
                           std::to_string(std::llround(k_longest_way_m / stroke.speed_m_per_s)) +
                           " s leads over more than a kilometre; give a --trajectory");
   return press_and_stroke(surface, largest.material, largest.centre, stroke);
-}
-
-/// Centre of a real device's workspace: --origin, or k_clearance_m in front of the largest tagged surface.
-Vec3 workspace_origin(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
-  if (!options.origin.empty()) return {options.origin[0], options.origin[1], options.origin[2]};
-  const LargestMaterial largest = largest_material(scene);
-  const double everywhere = norm(largest.centre - surface.low()) + norm(surface.high() - surface.low());
-  const auto nearest = surface.closest_point(largest.centre, everywhere, largest.material);
-  if (!nearest) throw InvalidInput(options.file + ": no triangle of its largest material");
-  return nearest->point + (k_clearance_m + nearest->height_m + surface.probe_radius_m()) * nearest->face_normal;
 }
 
 std::uint64_t tick_count(const Options& options, const std::optional<Trajectory>& hand) {
@@ -236,7 +226,7 @@ int run(const Options& options) {
     real_part.emplace(surface, registration.to_part, RealPartOptions{.press_n = options.real.press_n});
   }
   const bool centred = choice.preset == nullptr && !real_part;
-  const Vec3 origin = centred ? workspace_origin(options, scene, surface) : Vec3{};
+  const Vec3 origin = centred ? workspace_origin(options.origin, scene, surface, options.file) : Vec3{};
   scene.mesh = {};
   ::malloc_trim(0);  // Or what loading took is locked into memory with the rest.
   report.load_seconds = clock.seconds();

@@ -7,6 +7,7 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/stroke.hpp"
+#include "workspace.hpp"
 
 namespace papilla::player {
 namespace {
@@ -27,13 +28,11 @@ Vec3 tip_at(const ContactSurface& surface, Vec3 point, const char* what) {
 }
 
 Registration of_plane(const RealSurface& real, const HapticScene& scene, const ContactSurface& surface) {
-  const LargestMaterial largest = largest_material(scene);
-  const double everywhere = norm(largest.centre - surface.low()) + norm(surface.high() - surface.low());
-  const auto near = surface.closest_point(largest.centre, everywhere, largest.material);
-  if (!near) throw InvalidInput("--surface real: the largest material has no triangle");
-  const Vec3 n = near->face_normal;
+  constexpr const char* k_what = "--surface real";
+  const SurfacePoint middle = middle_of_largest(scene, surface, k_what);
+  const Vec3 n = middle.face_normal;
   const Vec3 along = std::abs(n.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  return register_plane(points_of(real.touched), tip_at(surface, near->point, "--surface real"), n, along);
+  return register_plane(points_of(real.touched), tip_at(surface, middle.point, k_what), n, along);
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ const char* check_forces(const char* plate) {
   CHECK((found & PAPILLA_HAPTIC_CONTACT) != 0);
   CHECK(fabs(force[1] - 300 * 0.002) <= 300 * 1.2e-4); /* Hooke's law, within the height of the relief. */
   CHECK(papilla_haptic_proxy(haptic, proxy, normal) == 0);
-  CHECK(fabs(proxy[1]) < 1.5e-4);
-  CHECK(normal[1] > 0.9);
+  CHECK(fabs(proxy[1]) < 1.5e-4 && fabs(proxy[2] - below[2]) < 1.5e-4);
+  CHECK(normal[1] > 0.9 && fabs(normal[2]) < 1e-9 && fabs(force[2]) < 1e-9); /* The relief does not change along z. */
   CHECK(papilla_haptic_proxy(haptic, NULL, NULL) == 0);
   CHECK((papilla_haptic_tick(haptic, below, 1, force) & PAPILLA_HAPTIC_FAULT) != 0); /* A second old. */
   CHECK(force[1] == 0);

@@ -166,6 +166,32 @@ TEST(HapticScene, NormalsStayUprightAndTheSecondCoordinatesAreFelt) {
   }
 }
 
+/// A triangle whose corners have a normal each, in a copy that is mirrored along x.
+TEST(HapticScene, AMirroredCopyHasEachNormalAtItsCorner) {
+  const File file(testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  Scene scene = read_gltf(file.path);
+  scene.materials[0].haptic->force_shading = true;
+  TriangleMesh& mesh = scene.parts[0].mesh;
+  mesh = {};
+  mesh.positions = {{10, 0, 0}, {50, 0, 0}, {10, 70, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.normals.values = {{0, 0, 1}, {0.6, 0, 0.8}, {0, 0.28, 0.96}};
+  mesh.uv.values = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.normals.indices = mesh.uv.indices = {{0, 1, 2}};
+  scene.nodes[instances(scene)[0].node].local = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  const HapticScene felt = haptic_scene(scene, file.path);
+  ASSERT_EQ(felt.mesh.triangles.size(), 1U);
+  int found = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 p = mesh.positions[i], n = mesh.normals.values[i];
+      if (norm(felt.mesh.corner(0, k) - 1e-3 * Vec3{-p.x, p.y, p.z}) > 1e-9) continue;
+      ++found;
+      EXPECT_LT(norm(felt.mesh.normal(0, k) - Vec3{-n.x, n.y, n.z}), 1e-6) << i;
+    }
+  EXPECT_EQ(found, 3);
+}
+
 TEST(LargestMaterial, CentreIsTheMeanOverItsArea) {
   HapticScene scene;
   scene.materials.resize(2);

@@ -394,6 +394,19 @@ TEST_F(Player, ForceFadesInAgainAfterASigstop) {
   EXPECT_TRUE(std::any_of(next + 50, next + 600, feels));
 }
 
+/// 10 ms: any machine stands still for longer when it is asked to.
+TEST_F(Player, AStandstillBeyondTheWatchdogIsAPause) {
+  const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  EXPECT_EQ(play_and({glb, "--seconds", "2", "--watchdog", "10"},
+                     [](pid_t child) {
+                       ::kill(child, SIGSTOP);
+                       std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                       ::kill(child, SIGCONT);
+                     }),
+            0);
+  EXPECT_GE(last_report()["pauses"]["count"], 1);
+}
+
 /// Tags that ask for more than a device can do.
 TEST_F(Player, HostileTagsAreHeldBackWithAWarning) {
   const auto expect_limited = [&](const Json& hostile, const std::string& code, const std::string& field,

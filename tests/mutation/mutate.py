@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Puts single faults into a copy of the sources and looks whether the tests notice: docs/mutation.md.
 
-usage: mutate.py ROOT [PATTERN] [--list] [--jobs N] [--json FILE]
+usage: mutate.py ROOT [PATTERN] [--list] [--near] [--jobs N] [--json FILE]
 
 ROOT is a git repository with
   tests/mutation/faults/*.jsonl   one fault a line: id, file, find (occurs once in the file), replace, why
@@ -283,6 +283,15 @@ class Copy:
             files += sorted(self.tree.glob(pattern))
         return digest("".join(f"{f.name} {digest(f.read_bytes())}\n" for f in files if f.is_file()).encode())
 
+    def listed(self, name):
+        """Source and seconds of each test of a GoogleTest program, of its last run or, with no time, of its list."""
+        tests = {}
+        if "gtest" in self.table["programs"][name]:
+            for suite in json.loads(self.told.read_text())["testsuites"]:
+                tests |= {f"{suite['name']}.{t['name']}": [t["file"], float(t.get("time", "0").rstrip("s"))]
+                          for t in suite["testsuite"]}
+        return tests
+
     def measure(self, programs):
         """Builds and runs the programs without a fault; the times of their tests are kept as long as they are the same."""
         if (output := self.build(programs)) is not None:
@@ -295,18 +304,34 @@ class Copy:
             killer, seconds = self.test(name)
             if killer:
                 raise Wrong(f"without a fault fails {killer}")
-            tests = {}
-            if "gtest" in self.table["programs"][name]:
-                for suite in json.loads(self.told.read_text())["testsuites"]:
-                    tests |= {f"{suite['name']}.{t['name']}": [t["file"], float(t["time"].rstrip("s"))]
-                              for t in suite["testsuite"]}
-            self.unmutated[name] = {"made_of": made_of, "seconds": seconds, "tests": tests}
+            self.unmutated[name] = {"made_of": made_of, "seconds": seconds, "tests": self.listed(name)}
             self.times_file.write_text(
                 json.dumps({"commit": self.commit, "programs": self.unmutated, "unsteady": self.unsteady}))
 
-    def rounds(self, programs, file, names):
+    def measure_near(self, wanted):
+        """The same of those tests alone that are near to one of the faults; `wanted`: programs, file and names of each."""
+        programs = sorted({name for programs, _, _ in wanted for name in programs if "gtest" in self.table["programs"][name]})
+        if (output := self.build(programs)) is not None:
+            raise Wrong(f"without a fault the build fails:\n{output[-4000:]}")
+        self.unmutated = {}
+        for name in programs:
+            self.run([*self.command(name, [], [], self.folder), "--gtest_list_tests"], self.folder)
+            tests = self.listed(name)
+            near = {t for programs, file, names in wanted if name in programs for t in nearest(tests, names, file)}
+            seconds = 0
+            if near:
+                print(f"  without a fault: {len(near)} of {len(tests)} tests of {name}", flush=True)
+                killer, seconds = self.test(name, asked=sorted(near))
+                if killer:
+                    raise Wrong(f"without a fault fails {killer}")
+                tests |= self.listed(name)
+            self.unmutated[name] = {"seconds": seconds, "tests": tests}
+
+    def rounds(self, programs, file, names, near_alone):
         """What is run for a fault, one after the other: program, tests, those left out, and the seconds without a fault."""
         first, rest = [], []
+        if near_alone:
+            programs = [name for name in programs if name in self.unmutated]
         for name in programs:
             whole, tests = self.unmutated[name]["seconds"], self.unmutated[name]["tests"]
             near = nearest(tests, names, file)
@@ -316,16 +341,16 @@ class Copy:
                 rest.append((name, [], near, whole))
             else:
                 rest.append((name, [], [], whole))
-        return first + rest
+        return first if near_alone else first + rest
 
-    def try_fault(self, fault, programs, names):
-        """One of killed, survived and does not compile, and by what."""
+    def try_fault(self, fault, programs, names, near_alone):
+        """One of killed, survived and does not compile, and by what; with `near_alone`, None in place of survived."""
         file = self.tree / fault["file"]
         source = file.read_bytes()
         try:
             file.write_text(source.decode().replace(fault["find"], fault["replace"]))
             built = set()
-            for name, asked, left_out, seconds in self.rounds(programs, fault["file"], names):
+            for name, asked, left_out, seconds in self.rounds(programs, fault["file"], names, near_alone):
                 if name not in built and (output := self.build([name])) is not None:
                     if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
                         return "does not compile", said[0].strip()
@@ -334,7 +359,7 @@ class Copy:
                 limit = max(self.table["least_seconds"]["computing"], TIMES_UNMUTATED * seconds)
                 if killer := self.test(name, limit, asked, left_out)[0]:
                     return "killed", killer
-            return "survived", ""
+            return None if near_alone else "survived", ""
         finally:
             file.write_bytes(source)
 
@@ -414,13 +439,18 @@ def mutate(project, faults, arguments):
     print(f"mutate: {len(faults)} faults, {len(faults) - len(left)} of them known", flush=True)
     uncompiled, interrupted = [], False
     try:
-        if left:
-            copy.measure(sorted({name for fault in left for name in project.programs_of(fault["file"])}))
-        for number, fault in enumerate(left, 1):
+        wanted = [(project.programs_of(fault["file"]), fault["file"], project.nearest_sources(fault["file"])) for fault in left]
+        if arguments.near:
+            copy.measure_near(wanted)
+        elif left:
+            copy.measure(sorted({name for programs, _, _ in wanted for name in programs}))
+        for number, (fault, (programs, _, names)) in enumerate(zip(left, wanted), 1):
             begin = time.monotonic()
-            result, by = copy.try_fault(fault, project.programs_of(fault["file"]), project.nearest_sources(fault["file"]))
-            results.add(fault, result, by, time.monotonic() - begin)
-            print(f"[{number}/{len(left)}] {fault['id']}: {result}{' by ' + by if result == 'killed' else ''}", flush=True)
+            result, by = copy.try_fault(fault, programs, names, arguments.near)
+            if result:
+                results.add(fault, result, by, time.monotonic() - begin)
+            said = f"killed by {by}" if result == "killed" else result or "not killed by the tests near it"
+            print(f"[{number}/{len(left)}] {fault['id']}: {said}", flush=True)
             if result == "does not compile":
                 uncompiled.append(f"{fault['place']}: {fault['id']} does not compile: {by}")
     except KeyboardInterrupt:
@@ -442,6 +472,7 @@ def main():
     parser.add_argument("root", type=Path)
     parser.add_argument("pattern", nargs="?", default="", help="regular expression, searched in ids and files")
     parser.add_argument("--list", action="store_true", help="check the list against the sources, and end")
+    parser.add_argument("--near", action="store_true", help="ask the tests near a fault alone; others stay not tried")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="compilers at a time")
     parser.add_argument("--json", metavar="FILE", help="write the results there, too")
     arguments = parser.parse_intermixed_args()  # As ./run gives them: options of its own before those of who calls it.

@@ -42,6 +42,8 @@ for suite, case, source in ("Size", "Area", "size_test.cpp"), ("Shape", "Corners
     if suite + "." + case not in left_out and (asked in ("", "*") or suite + "." + case in asked):
         suites.append({"name": suite, "testsuite": [{"name": case, "file": source, "time": "0.5s"}]})
 json.dump({"testsuites": suites}, open(flags["gtest_output"].removeprefix("json:"), "w"))
+if "--gtest_list_tests" in sys.argv:
+    sys.exit()
 if any(s["name"] == "Size" for s in suites) and subprocess.run(["FOLDER/mutation/tree/build/toy/size"]).returncode != 0:
     sys.exit("[  FAILED  ] Size.Area (0 ms)")
 if UNSTEADY and any(s["name"] == "Shape" for s in suites) and wanted != "Shape.Corners":
@@ -165,7 +167,7 @@ class MutateTest(unittest.TestCase):
         self.commit(ASLEEP)
         self.assertIn("asleep: killed by size (waits for longer than 3 s)", self.mutate()[1])
 
-    def asked(self, *faults, unsteady=False, left_out=()):
+    def asked(self, *faults, unsteady=False, left_out=(), arguments=()):
         """The filters of a GoogleTest program, run by run, and what was printed."""
         folder = self.root / "build"
         values = {"PYTHON": sys.executable, "FOLDER": str(folder), "UNSTEADY": str(unsteady)}
@@ -175,7 +177,7 @@ class MutateTest(unittest.TestCase):
         self.write("tests/mutation/project.json", json.dumps(self.table))
         self.commit(*faults)
         folder.mkdir()
-        _, out, _ = self.mutate()
+        _, out, _ = self.mutate(*arguments)
         return (folder / "filters.txt").read_text().split(), out
 
     def test_the_tests_named_after_a_file_are_asked_first(self):
@@ -206,6 +208,15 @@ class MutateTest(unittest.TestCase):
         filters, out = self.asked(KILLED, unsteady=True, left_out=["Shape.Corners"])
         self.assertIn("area: killed by size.Size.Area", out)
         self.assertEqual(filters, ["-Shape.Corners", "-Shape.Corners", "Size.Area-Shape.Corners"])
+
+    def test_near_ones_alone_leave_the_others_to_be_tried(self):
+        filters, out = self.asked(KILLED, SURVIVES, arguments=["--near"])
+        self.assertIn("without a fault: 1 of 2 tests of size", out)
+        self.assertIn("area: killed by size.Size.Area", out)
+        self.assertIn("perimeter: not killed by the tests near it", out)
+        self.assertRegex(out, r"toy +2 +1 +0 +100\.0 %")
+        self.assertEqual(filters, ["*", "Size.Area", "Size.Area", "Size.Area", "Size.Area"])
+        self.assertIn("2 faults, 1 of them known", self.mutate()[1])
 
     def test_a_row_says_which_tests_are_asked_first(self):
         self.write("tests/shape_test.cpp", "")
