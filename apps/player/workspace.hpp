@@ -13,8 +13,8 @@ namespace papilla::player {
 /// @throws InvalidInput that begins with `what` when the surface has no triangle.
 SurfacePoint middle_of_largest(const HapticScene& scene, const ContactSurface& surface, const std::string& what);
 
-/// Centre of a real device's workspace: the three numbers of `asked`, or, when that is empty, where a probe is 10 mm above the
-/// relief at middle_of_largest().
+/// Centre of a real device's workspace: the three numbers of `asked`, or, when that is empty, where a probe is 10 mm
+/// above the relief at middle_of_largest().
 Vec3 workspace_origin(std::span<const double> asked, const HapticScene& scene, const ContactSurface& surface,
                       const std::string& what);
 

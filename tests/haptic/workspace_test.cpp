@@ -14,8 +14,8 @@ namespace {
 HapticScene two_plates() {
   HapticScene scene;
   scene.materials.resize(2);
-  scene.mesh.positions = {{0.2, 0, 0},    {0.2, 0, 0.01},    {0.2, 0.01, 0},
-                          {0.2, 0.1, 0.3}, {0.2, 0.1, 0.36}, {0.2, 0.12, 0.36}, {0.2, 0.12, 0.3}};
+  scene.mesh.positions = {{0.2, 0, 0},      {0.2, 0, 0.01},    {0.2, 0.01, 0},  {0.2, 0.1, 0.3},
+                          {0.2, 0.1, 0.36}, {0.2, 0.12, 0.36}, {0.2, 0.12, 0.3}};
   scene.mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {3, 5, 6}};
   scene.mesh.material = {0, 1, 1};
   return scene;

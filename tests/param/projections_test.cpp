@@ -134,6 +134,73 @@ TEST(Intermediate, BoxHasUvWhereTheRayMeetsIt) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_GT(norm(of_first_corner[i] - of_first_corner[j]), 0.1);
 }
 
+/// A cube of these half extents around 0, and a small triangle with a normal of its own within it: its three corners.
+std::array<Vec3, 3> add_triangle(TriangleMesh& mesh, Vec3 half, Vec3 middle, Vec3 n) {
+  const Bounds3 bounds = bounds_of(mesh);
+  for (Vec3& p : mesh.positions) {
+    const Vec3 q = p - bounds.middle();
+    p = {std::copysign(half.x, q.x), std::copysign(half.y, q.y), std::copysign(half.z, q.z)};
+  }
+  const Vec3 a = normalized(cross(n, Vec3{0, 0, 1})), b = cross(n, a);
+  const std::array<Vec3, 3> corners{middle + a, middle - 0.5 * a + b, middle - 0.5 * a - b};
+  const auto first = static_cast<Index>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  return corners;
+}
+
+/// In a box of 10 by 40 by 20 a ray from far along y that runs along x meets the face in x.
+TEST(Intermediate, ABoxHasThreeSides) {
+  TriangleMesh mesh = test::cube(2);
+  const Vec3 n = normalized(Vec3{1, 0.3, 0.1});
+  const auto corners = add_triangle(mesh, {5, 20, 10}, {0, 10, 2}, n);
+  IntermediateOptions options;
+  options.rule = IntermediateRule::object_normal;
+  const CornerAttribute<Vec2> uv = flatten_intermediate(mesh, options).flattening.uv;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 own = uv.values[uv.indices.back()[k]];
+    EXPECT_NEAR(own.x, corners[k].y + (5 - corners[k].x) / n.x * n.y, 1e-9);
+    EXPECT_NEAR(own.y, corners[k].z + (5 - corners[k].x) / n.x * n.z, 1e-9);
+  }
+}
+
+/// Around a part that is deeper than wide: its radius is half the depth.
+TEST(Intermediate, ACylinderIsAsWideAsTheLongerSide) {
+  TriangleMesh mesh = test::cube(2);
+  const auto corners = add_triangle(mesh, {2, 15, 3}, {1, 4, 1}, {0, 1, 0});
+  IntermediateOptions options;
+  options.shape = IntermediateShape::cylinder;
+  options.rule = IntermediateRule::intermediate_normal;
+  const CornerAttribute<Vec2> uv = flatten_intermediate(mesh, options).flattening.uv;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 own = uv.values[uv.indices.back()[k]];
+    EXPECT_NEAR(std::remainder(own.x / 15 - std::atan2(corners[k].x, -corners[k].y), 2 * std::numbers::pi), 0, 1e-9);
+    EXPECT_NEAR(own.y, corners[k].z, 1e-9);
+  }
+}
+
+/// The cone of radius R at the top and 2 R at the bottom: what uv says lies on the ray, whether that rises or falls.
+TEST(Intermediate, RaysMeetTheConeWhereTheyAre) {
+  for (const double rise : {0.7, -0.5}) {
+    TriangleMesh mesh = test::cube(2);
+    const Vec3 n = normalized(Vec3{1, -0.4, rise});
+    const auto corners = add_triangle(mesh, {10, 8, 6}, {2, -1, 1}, n);
+    IntermediateOptions options;
+    options.shape = IntermediateShape::cone;
+    options.rule = IntermediateRule::object_normal;
+    const CornerAttribute<Vec2> uv = flatten_intermediate(mesh, options).flattening.uv;
+    const double apex = 18, opening = std::atan2(1.5 * 10, apex);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 own = uv.values[uv.indices.back()[k]];
+      const double longitude = std::atan2(own.x, -own.y) / std::sin(opening), across = norm(own);
+      const double radius = across * std::sin(opening);
+      const Vec3 q{radius * std::sin(longitude), -radius * std::cos(longitude), apex - across * std::cos(opening)};
+      EXPECT_NEAR(norm(cross(q - corners[k], n)), 0, 1e-9) << rise;
+      EXPECT_GT(dot(q - corners[k], n), 0);
+    }
+  }
+}
+
 TEST(Intermediate, BoxOnItselfIsAnIsometryByTheCentreToo) {
   const TriangleMesh mesh = test::cube(4);
   IntermediateOptions options;

@@ -139,6 +139,54 @@ TEST_F(BakeTest, GrainHasItsPhysicalScale) {
   EXPECT_NEAR(high_u - low_u, 2.5, 1e-9);
   EXPECT_NEAR(high_v - low_v, 5.0, 1e-9);
   EXPECT_NEAR(result.surfaces.at(0).distortion.symmetric_dirichlet.mean, 4, 1e-9);
+  EXPECT_EQ(result.mm_per_uv, (std::vector<Vec2>{{40, 20}}));
+}
+
+/// New uv are TEXCOORD_0: what lies on that is lost, what lies on TEXCOORD_1 is where it was.
+TEST_F(BakeTest, PicturesOnTheSecondCoordinatesStay) {
+  Part part = square("dash");
+  part.mesh.uv1.values = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  part.mesh.uv1.indices = part.mesh.triangles;
+  part.mesh.material = {0, 0};
+  part.materials = {0};
+  Scene scene = scene_of({part});
+  const std::string png = read_file(folder_ / "grain.png");
+  scene.images.resize(1);
+  scene.images[0].mime_type = "image/png";
+  scene.images[0].bytes.assign(std::as_bytes(std::span(png)).begin(), std::as_bytes(std::span(png)).end());
+  scene.textures.resize(1);
+  scene.textures[0].image = 0;
+  scene.materials.resize(1);
+  scene.materials[0].name = "skin";
+  scene.materials[0].occlusion_texture = TextureReference{0, 1, 1, {}};
+  scene.materials[0].emissive_texture = TextureReference{0, 0, 1, {}};
+  const BakeResult result = run(std::move(scene));
+  const TriangleMesh& mesh = result.scene.parts[0].mesh;
+  const Material& material = result.scene.materials.at(result.scene.parts[0].materials.at(mesh.material.at(0)));
+  ASSERT_TRUE(material.occlusion_texture);
+  EXPECT_EQ(material.occlusion_texture->tex_coord, 1);
+  EXPECT_FALSE(material.emissive_texture);
+  EXPECT_EQ(result.scene.losses.size(), 1U);
+  ASSERT_EQ(mesh.uv1.indices.size(), 2U);
+  EXPECT_EQ(mesh.uv1.values.at(mesh.uv1.indices[0][2]), (Vec2{1, 1}));
+}
+
+/// Two squares of the same corners, cut along either diagonal.
+TEST_F(BakeTest, PartsCutIntoOtherTrianglesHaveTheirOwnUv) {
+  Part other = square("dash_other");
+  other.mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
+  const BakeResult result = run(scene_of({square("dash"), other, square("dash_again")}));
+  ASSERT_EQ(result.surfaces.size(), 3U);
+  EXPECT_EQ(result.surfaces[1].same_as, "");
+  EXPECT_NE(result.surfaces[2].same_as, "");
+  for (const Part& part : result.scene.parts)
+    for (std::size_t t = 0; t < 2; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 edge = part.mesh.corner(t, static_cast<int>((k + 1) % 3)) - part.mesh.corner(t, static_cast<int>(k));
+        const auto& corners = part.mesh.uv.indices.at(t);
+        const Vec2 step = part.mesh.uv.values[corners[(k + 1) % 3]] - part.mesh.uv.values[corners[k]];
+        EXPECT_NEAR(std::hypot(40 * step.x, 20 * step.y), norm(edge), 1e-6) << part.name;
+      }
 }
 
 /// Three of the six spheres of 10.7 pixels fill a tile of 32 pixels, half of the picture.

@@ -160,14 +160,20 @@ TEST(BakeSolid, WoodGoesOnAroundAnEdge) {
 }
 
 TEST(BakeSolid, ReliefAndFrictionLieOnTheAtlas) {
-  const Scene scene = bake_scene(scene_of(k_identity), rules_of(wood())).scene;
-  const Material& material = scene.materials.at(scene.parts[0].materials.at(0));
+  const BakeResult result = bake_scene(scene_of(k_identity), rules_of(wood()));
+  const Scene& scene = result.scene;
+  const std::uint32_t number = scene.parts[0].materials.at(0);
+  const Material& material = scene.materials.at(number);
   const MaterialTag& tag = material.haptic.value();
   ASSERT_TRUE(tag.height && tag.maps);
   EXPECT_EQ(tag.height->tex_coord, 0);
   const ColorImage color = picture_of(scene, material.base_color_texture);
   EXPECT_EQ(tag.height->size, (std::array<int, 2>{color.width, color.height}));
+  EXPECT_NE(color.width, color.height);
   EXPECT_NEAR(tag.height->metres_per_uv.x, color.width * 0.08 / 512, 1e-9);
+  EXPECT_NEAR(tag.height->metres_per_uv.y, color.height * 0.08 / 512, 1e-9);
+  EXPECT_NEAR(result.mm_per_uv.at(number).x, color.width * 80.0 / 512, 1e-6);
+  EXPECT_NEAR(result.mm_per_uv[number].y, color.height * 80.0 / 512, 1e-6);
   std::vector<HapticWarning> warnings;
   const auto maps = find_maps(*tag.maps, scene, "block.glb", 0, warnings);
   ASSERT_TRUE(maps && warnings.empty());

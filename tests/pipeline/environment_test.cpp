@@ -80,6 +80,18 @@ TEST(EnvironmentLight, MirrorsWhatIsThere) {
   EXPECT_LT(rough, 1.8);
 }
 
+/// Rows whose light grows by one from each to the next: between them mirrors show what lies between.
+TEST(EnvironmentLight, MirrorsShowWhatLiesBetweenPixels) {
+  const EnvironmentLight light(environment(16, [](Vec3 d) { return 8 * (0.5 - std::asin(d.y) / k_pi); }));
+  for (const double row : {0.5, 1.25, 3.5, 4.75, 7.4})
+    for (const double longitude : {-2.0, -0.3, 0.7, 2.9}) {
+      const double latitude = k_pi * (0.5 - row / 8);
+      const Vec3 d{std::cos(latitude) * std::cos(longitude), std::sin(latitude),
+                   std::cos(latitude) * std::sin(longitude)};
+      EXPECT_NEAR(light.reflection(d, 0).x, row, 1e-3) << longitude;
+    }
+}
+
 /// A ball of radius 10 in a material of its own.
 Scene ball(const Material& material, UpAxis up) {
   Part part;

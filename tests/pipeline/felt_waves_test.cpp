@@ -109,6 +109,18 @@ TEST(FeltWaves, LeavingOutSavesSamplesAndBytesButNothingThatIsFelt) {
   EXPECT_LT(worst, 2.1e-6);
 }
 
+/// 512 columns are as long as 256 rows that lie twice as far apart.
+TEST(FeltWaves, RowsThatLieFartherApartAreNeededAsOften) {
+  HeightMap relief = wavy(2e-6);
+  ASSERT_EQ(relief.width, 2 * relief.height);
+  relief.pitch_mm_y = 2 * relief.pitch_mm_x;
+  const FeltWaves felt = measure_felt_waves(wave_bands(relief, true));
+  const ReliefSaving saving = measure_relief_saving(relief, felt, encode_height_png16(relief).png.size());
+  ASSERT_TRUE(saving.saves());
+  EXPECT_GT(saving.needed_height, 1);
+  EXPECT_EQ(saving.needed_height, saving.needed_width);
+}
+
 TEST(FeltWaves, WhatIsFeltIsNeeded) {
   const HeightMap relief = wavy(1e-3);
   const ReliefSaving all = measure_relief_saving(relief, measure_felt_waves(wave_bands(relief, true)), 1000);

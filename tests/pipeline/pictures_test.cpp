@@ -2,13 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "papilla/core/error.hpp"
+#include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/pictures/scene_render.hpp"
 #include "pictures/border_edges.hpp"
+#include "pictures/mip_pyramid.hpp"
 #include "pictures/pixel_text.hpp"
+#include "pictures/relief.hpp"
 
 namespace papilla {
 namespace {
@@ -108,6 +112,88 @@ TEST(RenderScene, GlassLetsShineThroughWhatLiesBehind) {
   const Vec3 stack = middle_of({2, 1, 0}, {glass, blue, red});
   EXPECT_LT(norm(middle_of({1, 0, 2}, {blue, red, glass}) - stack), 0.002);
   EXPECT_GT(middle_of({2, 1, 0}, {blue, glass, red}).z, stack.z + 0.03);
+}
+
+/// A square of 200 mm seen from z, u along x and v along y, once over it.
+Scene square_seen_from_z() {
+  Part part;
+  part.mesh.positions = {{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}};
+  part.mesh.triangles = part.mesh.uv.indices = {{0, 1, 2}, {0, 2, 3}};
+  part.mesh.uv.values = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  part.materials = {0};
+  Scene scene = single_part_scene(std::move(part), "test");
+  scene.up = UpAxis::y;
+  scene.materials.resize(1);
+  scene.materials[0].roughness = 1;
+  return scene;
+}
+
+/// How often light and dark fields of a checker alternate along a line through the middle.
+int alternations(const ColorImage& picture, bool along_x) {
+  const auto dark = [&](int i) {
+    const int x = along_x ? i : picture.width / 2 + 3, y = along_x ? picture.height / 2 + 3 : i;
+    const auto at =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+    return picture.pixels[at] < picture.pixels[at + 2];
+  };
+  int count = 0;
+  for (int i = 21; i < picture.width - 20; ++i) count += dark(i) != dark(i - 1);
+  return count;
+}
+
+/// Repeats of 100 by 50 mm on the second coordinates: fields of 20 mm are square.
+TEST(RenderScene, FieldsOfACheckerAreSquareOnTheCoordinatesOfTheRelief) {
+  Scene scene = square_seen_from_z();
+  TriangleMesh& mesh = scene.parts[0].mesh;
+  mesh.uv1.indices = mesh.uv.indices;
+  mesh.uv1.values = {{0, 0}, {2, 0}, {2, 4}, {0, 4}};
+  scene.materials[0].normal_texture = TextureReference{0, 1, 1, {}};
+  SceneViewOptions options{.mode = RenderMode::checker, .width = 400, .height = 400, .towards_camera = {0, 0, 1}};
+  options.mm_per_uv = {{100, 50}};
+  const ColorImage picture = render_scene(scene, options);
+  EXPECT_EQ(alternations(picture, true), 9);
+  EXPECT_EQ(alternations(picture, false), 9);
+}
+
+/// The light comes from above: what is inclined towards growing v, which is up here, is brighter.
+TEST(RenderScene, NormalMapsAreLitFromAbove) {
+  const auto brightness = [](unsigned char green) {
+    Scene scene = square_seen_from_z();
+    ColorImage map{4, 4, {}};
+    for (int i = 0; i < 16; ++i) map.pixels.insert(map.pixels.end(), {128, green, 230});
+    scene.images.resize(1);
+    scene.images[0].mime_type = "image/png";
+    scene.images[0].bytes = encode_png(map);
+    scene.textures.resize(1);
+    scene.textures[0].image = 0;
+    scene.materials[0].normal_texture = TextureReference{0, 0, 1, {}};
+    const ColorImage picture = render_scene(scene, {.width = 41, .height = 41, .towards_camera = {0, 0, 1}});
+    return int{picture.pixels[3 * (20 * 41 + 20)]};
+  };
+  EXPECT_GT(brightness(180), brightness(128) + 5);
+  EXPECT_LT(brightness(76), brightness(128) - 5);
+}
+
+/// Columns end, rows go on: over the lower border lies the upper one.
+TEST(MipPyramid, EachAxisHasItsOwnBorder) {
+  RgbaImage image{2, 4, {}};
+  for (const int grey : {0, 51, 102, 153, 204, 255, 51, 102})
+    image.pixels.insert(image.pixels.end(), {static_cast<unsigned char>(grey), 0, 0, 255});
+  const MipPyramid columns_end(image, false, {true, false}), rows_end(image, false, {false, true});
+  const auto red = [](const MipPyramid& pyramid, double u, double v) { return pyramid.sample({u, v}, 1).color.x; };
+  EXPECT_NEAR(red(columns_end, 0.25, 0), 0.5 * (0.2 + 0), 1e-6);
+  EXPECT_NEAR(red(columns_end, 0, 0.875), 0, 1e-6);
+  EXPECT_NEAR(red(rows_end, 0.25, 0), 0.2, 1e-6);
+  EXPECT_NEAR(red(rows_end, 0, 0.875), 0.5 * (0 + 0.2), 1e-6);
+}
+
+/// Rows of 0, 1, 2 and 1 units that repeat: the slope is 1/pitch at half of them. With columns twice as near.
+TEST(DrawRelief, SlopesAreThoseOfRowsThatRepeat) {
+  HeightMap map{3, 4, {}, 0.25, 0.5, true};
+  for (const float row : {0.0F, 0.01F, 0.02F, 0.01F}) map.mm.insert(map.mm.end(), 3, row);
+  double exaggeration = 0;
+  draw_relief(map, exaggeration);
+  EXPECT_NEAR(exaggeration, 0.25 / (0.01 / 0.5 * std::sqrt(0.5)), 1e-5);
 }
 
 /// The corners of large triangles lie behind a camera that is near: what is before it is drawn all the same, with the

@@ -73,6 +73,26 @@ TEST(QuantityMaps, TexelsThatNoFingerTellsAreAveraged) {
             (std::array<int, 2>{64, 4}));
 }
 
+/// Texels of 0.01 by 0.05 mm become such of 0.02 by 0.1 mm, the mean of two columns and two rows each.
+TEST(QuantityMaps, TexelsThatAreNotSquareAreAveragedOnce) {
+  const auto value = [](int x, int y) { return 1 + 0.1 * x + 0.05 * y * y; };
+  QuantityMap map{Quantity::dynamic_friction, {}};
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 16; ++x) map.values.push_back(static_cast<float>(value(x, y)));
+  const auto once = encode_quantity_maps({16, 8, 0.01, 0.05, true, {map}});
+  ASSERT_EQ(once.value().size, (std::array<int, 2>{8, 4}));
+  const ChannelField field = field_of(*once);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x) {
+      ContactConstants there;
+      field.apply({(x + 0.5) / 8, (y + 0.5) / 4}, there);
+      const double mean = 0.25 * (value(2 * x, 2 * y) + value(2 * x + 1, 2 * y) + value(2 * x, 2 * y + 1) +
+                                  value(2 * x + 1, 2 * y + 1));
+      EXPECT_NEAR(there.dynamic_friction, mean, 0.51 * 4 / 255) << x << ' ' << y;
+    }
+  EXPECT_EQ(encode_quantity_maps({16, 8, 0.01, 0.2, true, {map}}).value().size, (std::array<int, 2>{16, 8}));
+}
+
 /// A step from 1 to 3 becomes a ramp of ln 3 / 0.5 mm; what is gentler stays.
 TEST(QuantityMaps, StiffnessIsNoSteeperThanTheHandMayGain) {
   const auto step = [](double u) { return u > 0.25 && u < 0.75 ? 3.0 : 1.0; };

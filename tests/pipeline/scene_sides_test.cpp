@@ -63,6 +63,20 @@ TEST(SceneSides, WallsAreTurnedAndStayTurned) {
   EXPECT_EQ(first_normal(scene.parts[3]), (Vec3{1, 0, 0}));
 }
 
+/// Whatever is up, an eye that is given is where it was given, in the axes of the scene.
+TEST(SceneSides, AnEyeIsToldInTheAxesOfTheScene) {
+  for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
+    Scene scene = room();
+    scene.up = up;
+    turn_all(scene.parts[5].mesh);
+    const SceneSides sides = find_sides(scene, {.inside = Vec3{300, 200, 400}});
+    EXPECT_EQ(sides.viewpoint, Viewpoint::inside);
+    EXPECT_LT(norm(sides.eye - Vec3{300, 200, 400}), 1e-9);
+    EXPECT_EQ(sides.facing_away, 1u);
+    EXPECT_EQ(sides_of(sides, "back")->facing_away, 1u);
+  }
+}
+
 TEST(SceneSides, SheetsWithoutAFlagAreLeft) {
   Scene scene = room();
   turn_all(scene.parts[2].mesh);
