@@ -335,7 +335,7 @@ class Copy:
         for name in programs:
             whole, tests = self.unmutated[name]["seconds"], self.unmutated[name]["tests"]
             near = nearest(tests, names, file)
-            if near and len(near) < len(tests):
+            if near and (near_alone or len(near) < len(tests)):
                 share = sum(tests[t][1] for t in near) / max(1e-3, sum(t[1] for t in tests.values()))
                 first.append((name, near, [], share * whole))
                 rest.append((name, [], near, whole))
