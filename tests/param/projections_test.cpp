@@ -39,6 +39,13 @@ TEST(Planar, BackOfACubeIsNotMirrored) {
   EXPECT_EQ(d.mirrored_charts, 0u);
   EXPECT_EQ(d.flipped, 0u);
   EXPECT_EQ(d.degenerate_uv, 8u);  // the four walls are seen edge-on
+  // Turned over or not, v grows upwards, which is along y here.
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle &v = mesh.triangles[t], &i = r.flattening.uv.indices[t];
+      const Vec2 step = r.flattening.uv.values[i[(k + 1) % 3]] - r.flattening.uv.values[i[k]];
+      EXPECT_NEAR(step.y, mesh.positions[v[(k + 1) % 3]].y - mesh.positions[v[k]].y, 1e-9);
+    }
 }
 
 TEST(Planar, KnownStretch) {

@@ -41,6 +41,8 @@ TEST(SeamVisibility, WholeRepeatsAreNoJump) {
   const SeamVisibility v = seam_visibility(s.mesh, s.uv, {.tile_mm = {4, 6}, .grain_mm = 1});
   EXPECT_NEAR(v.seam_mm, 10, 1e-12);
   EXPECT_NEAR(v.visible_mm, 0, 1e-12);
+  const TwoTriangles other({8, -18});  // Of the tile's height, not of its width.
+  EXPECT_NEAR(seam_visibility(other.mesh, other.uv, {.tile_mm = {4, 6}, .grain_mm = 1}).max_jump_mm, 0, 1e-12);
 }
 
 TEST(SeamVisibility, TurnsAreMeasured) {

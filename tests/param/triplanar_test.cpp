@@ -152,6 +152,8 @@ TEST(Triplanar, BorderJumpIsCountedModuloTheTile) {
   EXPECT_NEAR(plain.seam_mm, 4, 1e-12);
   EXPECT_NEAR(plain.mean_mm, 10, 1e-12);
   EXPECT_NEAR(plain.max_mm, 10, 1e-12);
+  EXPECT_NEAR(plain.rms_mm, 10, 1e-12);
+  EXPECT_NEAR(flatten_triplanar(mesh, {.tile_mm = {3, 8}}).border_jump.mean_mm, 2, 1e-12);
   EXPECT_NEAR(flatten_triplanar(mesh, {.tile_mm = {8, 8}}).border_jump.mean_mm, 2, 1e-12);
   EXPECT_NEAR(flatten_triplanar(mesh, {.tile_mm = {5, 5}}).border_jump.rms_mm, 0, 1e-12);
 }

@@ -32,6 +32,16 @@ TEST(UvOverlap, SquaresShiftedByAQuarterBothWays) {
   EXPECT_NEAR(find_uv_overlap(squares({{0, 0}, {0.25, 0.25}}), 1024).fraction, twice / (2 - twice), 1e-3);
 }
 
+/// Two parts that lie over each other, and of which each overlaps itself.
+TEST(UvOverlap, EveryGroupHasItsOwnOverlap) {
+  std::vector<UvTriangle> triangles = squares({{0, 0}, {0.25, 0}});
+  for (UvTriangle t : squares({{0.1, 0}, {0.35, 0}})) {
+    t.group = 1;
+    triangles.push_back(t);
+  }
+  EXPECT_NEAR(find_uv_overlap(triangles, 1024).fraction, 0.75 / 1.25, 1e-3);
+}
+
 TEST(UvOverlap, NeighboursAndOtherGroupsDoNotOverlap) {
   EXPECT_EQ(find_uv_overlap(squares({{0, 0}, {1, 0}}), 1024).fraction, 0);
   EXPECT_EQ(find_uv_overlap(squares({{0, 0}, {0.25, 0}}, 1), 1024).fraction, 0);

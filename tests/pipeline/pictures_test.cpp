@@ -124,6 +124,7 @@ Scene square_seen_from_z() {
   Scene scene = single_part_scene(std::move(part), "test");
   scene.up = UpAxis::y;
   scene.materials.resize(1);
+  scene.materials[0].base_color = {0.1, 0.1, 0.1, 1};
   scene.materials[0].roughness = 1;
   return scene;
 }
