@@ -218,6 +218,14 @@ class MutateTest(unittest.TestCase):
         self.assertEqual(filters, ["*", "Size.Area", "Size.Area", "Size.Area", "Size.Area"])
         self.assertIn("2 faults, 1 of them known", self.mutate()[1])
 
+    def test_all_tests_may_be_near(self):
+        self.write("tests/shape_test.cpp", "")
+        self.table["tests_first"] = {"src/size.cpp": ["size_test", "shape_test"]}
+        filters, out = self.asked(KILLED, arguments=["--near"])
+        self.assertIn("without a fault: 2 of 2 tests of size", out)
+        self.assertIn("area: killed by size.Size.Area", out)
+        self.assertEqual(filters[1:3], ["Shape.Corners:Size.Area", "Size.Area:Shape.Corners"])
+
     def test_a_row_says_which_tests_are_asked_first(self):
         self.write("tests/shape_test.cpp", "")
         self.table["tests_first"] = {"src/size.cpp": ["shape_test"]}
