@@ -105,6 +105,7 @@ class DiskHierarchy::Coarsener {
     std::nth_element(candidates.begin(), used, candidates.end());
     std::sort(candidates.begin(), used);
     ++pass_;
+    h_.passes_.push_back(h_.removals_.size());
     Ring ring;
     std::size_t left = vertices_.size();
     for (auto c = candidates.begin(); c != used && left > enough; ++c) {
@@ -319,14 +320,22 @@ DiskHierarchy::DiskHierarchy(std::span<const Vec3> positions, std::span<const Tr
   removed_ = removals_.size();
 }
 
-Removal DiskHierarchy::restore() {
-  const Removal removal = removals_[--removed_];
-  for (const Index t : around(removal)) {
-    if (alive_[t]) std::replace(triangles_[t].begin(), triangles_[t].end(), removal.target, removal.vertex);
-    alive_[t] = 1;
-  }
-  ++vertex_count_;
-  return removal;
+std::size_t DiskHierarchy::apart() const {
+  return removed_ - *std::prev(std::lower_bound(passes_.begin(), passes_.end(), removed_));
+}
+
+std::span<const Removal> DiskHierarchy::restore(std::size_t count) {
+  removed_ -= count;
+  vertex_count_ += count;
+  const std::span<const Removal> undone(removals_.data() + removed_, count);
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, k_together), [&](const auto& range) {
+    for (const Removal& removal : undone.subspan(range.begin(), range.size()))
+      for (const Index t : around(removal)) {
+        if (alive_[t]) std::replace(triangles_[t].begin(), triangles_[t].end(), removal.target, removal.vertex);
+        alive_[t] = 1;
+      }
+  });
+  return undone;
 }
 
 void DiskHierarchy::remove_again() {
