@@ -38,9 +38,13 @@ ContactTriangles::Face ContactTriangles::face(std::uint32_t place) const noexcep
     return Vec2{static_cast<double>(relief(place, k).u), static_cast<double>(relief(place, k).v)};
   };
   const auto shift = [&](std::size_t k) { return static_cast<double>(relief(place, k).shift); };
-  face.uv = uv(0);
-  face.uv_v = uv(1) - face.uv;
-  face.uv_w = uv(2) - face.uv;
+  if (face.height != nullptr) {
+    const auto [per_u, per_v] = face.height->texels_per_uv();
+    const Vec2 uv_v = uv(1) - uv(0), uv_w = uv(2) - uv(0);
+    face.texel = face.height->texel_at(uv(0));
+    face.texel_v = uv_v.x * per_u + uv_v.y * per_v;
+    face.texel_w = uv_w.x * per_u + uv_w.y * per_v;
+  }
   face.shift = shift(0);
   face.shift_v = shift(1) - face.shift;
   face.shift_w = shift(2) - face.shift;
@@ -48,31 +52,16 @@ ContactTriangles::Face ContactTriangles::face(std::uint32_t place) const noexcep
   return face;
 }
 
-double ContactTriangles::relief_height(const Face& face, const Foot& foot, Vec3* gradient) noexcept {
-  HeightSample sample;
-  if (face.height != nullptr) sample = face.height->sample(face.uv + foot.v * face.uv_v + foot.w * face.uv_w);
-  const double height = sample.height_m - (face.shift + foot.v * face.shift_v + foot.w * face.shift_w);
-  if (gradient == nullptr) return std::max(0.0, height);
-  *gradient = {};
-  if (height <= 0) return 0;
-  *gradient =
-      face.in_plane(dot(sample.gradient_m, face.uv_v) - face.shift_v, dot(sample.gradient_m, face.uv_w) - face.shift_w);
-  return height;
-}
-
-/// Height of the relief with the skin on it along its normal, less the skin. Above the foot c it is touched at
+/// The relief with the skin on it along its normal, less the skin. Above the foot c it is touched at
 /// c + s·∇h/√(1 + |∇h|²), where ∇h is the slope of the relief; with the height at c alone the closest point of a curved
 /// relief would be off by the slope times the skin.
-double ContactTriangles::skinned_relief_height(const Face& face, const Foot& foot, Vec3* slope) const noexcept {
-  const double height = relief_height(face, foot, slope);
-  const double steep = dot(*slope, *slope);
-  if (!(steep > k_level)) return height;
-  const Vec2 way = face.weights_of((skin_ / std::sqrt(1 + steep)) * *slope);
-  Foot touched = foot;
-  touched.v += way.x;
-  touched.w += way.y;
-  const double there = relief_height(face, touched, slope);
-  return std::max(0.0, there + skin_ / std::sqrt(1 + dot(*slope, *slope)) - skin_);
+[[gnu::always_inline]] inline ContactTriangles::ReliefSample ContactTriangles::skinned_relief_at(
+    const Face& face, Vec2 weights) const noexcept {
+  const ReliefSample at = relief_at(face, weights);
+  if (!(at.steep > k_level)) return at;
+  ReliefSample touched = relief_at(face, weights + (skin_ / std::sqrt(1 + at.steep)) * at.slope);
+  touched.height = std::max(0.0, touched.height + skin_ / std::sqrt(1 + touched.steep) - skin_);
+  return touched;
 }
 
 ContactTriangles::Clearance ContactTriangles::clearance_of(const Face& face, Vec3 x) const noexcept {
@@ -97,8 +86,9 @@ ContactTriangles::Clearance ContactTriangles::clearance_of(const Face& face, Vec
     return result;
   }
   cosine = f.on == Foot::On::face ? 1 : std::min(1.0, cosine);
-  Vec3 slope;
-  result.lift = skinned_relief_height(face, f, &slope);
+  const ReliefSample relief = skinned_relief_at(face, {f.v, f.w});
+  Vec3 slope = face.vector_of(relief.slope);
+  result.lift = relief.height;
   result.value -= cosine * result.lift;
   // For x outside the face's prism the foot moves along the edge only, or not at all. Right above the edge it moves in
   // both directions, as a neighbour continues there.

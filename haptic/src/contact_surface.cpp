@@ -55,7 +55,9 @@ std::optional<SurfacePoint> closest_base_point(const ContactTriangles& s, Vec3 p
   point.distance_m = near->distance;
   if (s.has_relief(near->place)) {
     const auto face = s.face(near->place);
-    point.height_m = s.relief_height(face, near->foot, &point.slope);
+    const auto relief = s.relief_at(face, {near->foot.v, near->foot.w});
+    point.height_m = relief.height;
+    point.slope = face.vector_of(relief.slope);
     point.base_m = face.shift + near->foot.v * face.shift_v + near->foot.w * face.shift_w;
   }
   point.on_border = near->foot.on != ContactTriangles::Foot::On::face;

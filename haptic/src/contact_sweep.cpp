@@ -139,19 +139,24 @@ void ContactTriangles::sweep_plain(std::uint32_t place, Sweep& sweep) const noex
 struct ContactTriangles::FaceWay {
   const Face& face;
   Vec3 way;
-  double rise, slide;   ///< Lengths along the normal and along the face.
-  double texels = 0;    ///< Number of texels that it crosses.
-  double steepest = 0;  ///< Upper bound of the slope of the relief above the base.
+  double rise;  ///< Length along the normal.
 
-  FaceWay(const Face& f, Vec3 w) noexcept
-      : face(f), way(w), rise(dot(f.normal, w)), slide(std::sqrt(std::max(0.0, dot(w, w) - rise * rise))) {
-    if (f.height == nullptr) return;
-    const auto [per_u, per_v] = f.height->texels_per_uv();
-    const Vec2 by_v = f.uv_v.x * per_u + f.uv_v.y * per_v, by_w = f.uv_w.x * per_u + f.uv_w.y * per_v;
-    const Vec2 weights = f.weights_of(w), steep = f.height->steepest_m();
-    texels = norm(weights.x * by_v + weights.y * by_w);
-    steepest = steep.x * norm(f.in_plane(by_v.x, by_w.x)) + steep.y * norm(f.in_plane(by_v.y, by_w.y)) +
-               norm(f.in_plane(f.shift_v, f.shift_w));
+  FaceWay(const Face& f, Vec3 w) noexcept : face(f), way(w), rise(dot(f.normal, w)) {}
+
+  /// Length along the face.
+  double slide() const noexcept { return std::sqrt(std::max(0.0, dot(way, way) - rise * rise)); }
+  /// Number of texels that it crosses.
+  double texels() const noexcept {
+    const Vec2 weights = face.weights_of(way);
+    return norm(weights.x * face.texel_v + weights.y * face.texel_w);
+  }
+  /// Upper bound of the slope of the relief above the base.
+  double steepest() const noexcept {
+    if (face.height == nullptr) return 0;
+    const Vec2 steep = face.height->steepest_m();
+    return steep.x * norm(face.in_plane(face.texel_v.x, face.texel_w.x)) +
+           steep.y * norm(face.in_plane(face.texel_v.y, face.texel_w.y)) +
+           norm(face.in_plane(face.shift_v, face.shift_w));
   }
 };
 
@@ -165,7 +170,7 @@ bool ContactTriangles::stays_clear(const FaceWay& over, const Clearance& now, do
   if (!(room > 0)) return false;
   const double highest = dot(over.face.normal, now.d) + std::max(0.0, share * over.rise);
   const double cosine = std::clamp(highest / nearest, 0.0, 1.0);
-  return room > cosine * std::min(over.face.top, now.lift + share * over.steepest * over.slide) + tolerance_m();
+  return room > cosine * std::min(over.face.top, now.lift + share * over.steepest() * over.slide()) + tolerance_m();
 }
 
 /// Marches over the relief, each time as far as stays_clear() proves or half a texel, and refines the contact in the
@@ -173,13 +178,13 @@ bool ContactTriangles::stays_clear(const FaceWay& over, const Clearance& now, do
 void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
   const Vec3 from = sweep.from, way = sweep.way;
   const double t_max = sweep.until();
-  const double length = norm(way), reach = contact_radius_m() + relief_top(place);
-  Approach entry;
-  move_approach(corners(place), from, way, 0, entry);
-  if (!advance(corners(place), from, way, reach, reach - tolerance_m(), t_max, entry)) return;
   const Face face = this->face(place);
+  const double length = norm(way), reach = contact_radius_m() + face.top;
+  Approach entry;
+  move_approach(face.t, from, way, 0, entry);
+  if (!advance(face.t, from, way, reach, reach - tolerance_m(), t_max, entry)) return;
   const FaceWay over(face, way);
-  const double finest = std::max(0.5 / std::max(over.texels, 0.5), 1.0 / k_march_steps);
+  const double finest = std::max(0.5 / std::max(over.texels(), 0.5), 1.0 / k_march_steps);
 
   // In a hollow every tangent enters at once: half the tolerance lets the probe move on.
   const double level = -0.5 * tolerance_m();

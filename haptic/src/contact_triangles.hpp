@@ -53,19 +53,25 @@ class ContactTriangles {
     double ab_ab = 0, ab_ac = 0, ac_ac = 0, inverse_det = 0;  ///< Gram matrix of the edges; 1/det is 0 for a needle.
     bool has_relief = false;
     const HeightField* height = nullptr;
-    Vec2 uv, uv_v, uv_w;                         ///< uv at a, and its derivatives by v and w.
+    Vec2 texel, texel_v, texel_w;                ///< Texel coordinates at a, and their derivatives by v and w.
     double shift = 0, shift_v = 0, shift_w = 0;  ///< The same of the base's offset.
     double top = 0;                              ///< Upper bound of the relief above the base.
 
-    /// Weights of b and c of a vector in the triangle's plane; zero for a needle.
-    Vec2 weights_of(Vec3 way) const noexcept {
-      const double p = dot(way, ab), q = dot(way, ac);
-      return inverse_det * Vec2{p * ac_ac - q * ab_ac, q * ab_ab - p * ab_ac};
+    /// Weights of b and c of the vector in the triangle's plane whose products with ab and ac are given; zero for a
+    /// needle.
+    Vec2 weights_by(Vec2 products) const noexcept {
+      return inverse_det * Vec2{products.x * ac_ac - products.y * ab_ac, products.y * ab_ab - products.x * ab_ac};
     }
+    Vec2 weights_of(Vec3 way) const noexcept { return weights_by({dot(way, ab), dot(way, ac)}); }
+    Vec3 vector_of(Vec2 weights) const noexcept { return weights.x * ab + weights.y * ac; }
     /// ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane; zero for a needle.
-    Vec3 in_plane(double by_v, double by_w) const noexcept {
-      return inverse_det * ((by_v * ac_ac - by_w * ab_ac) * ab + (by_w * ab_ab - by_v * ab_ac) * ac);
-    }
+    Vec3 in_plane(double by_v, double by_w) const noexcept { return vector_of(weights_by({by_v, by_w})); }
+  };
+  /// Height of the relief above the base.
+  struct ReliefSample {
+    double height = 0;
+    Vec2 slope;        ///< Weights of b and c of its gradient ∇h in the triangle's plane.
+    double steep = 0;  ///< |∇h|².
   };
   /// A candidate for the place where the proxy comes to rest.
   struct Rest {
@@ -134,8 +140,8 @@ class ContactTriangles {
   Face face(std::uint32_t place) const noexcept;
   static Foot foot(const Corners& t, Vec3 x) noexcept;
   Clearance clearance_of(const Face& face, Vec3 x) const noexcept;
-  /// Height of the relief above the base at a foot, and its gradient in the triangle's plane.
-  static double relief_height(const Face& face, const Foot& foot, Vec3* gradient) noexcept;
+  /// @param weights of b and c.
+  static ReliefSample relief_at(const Face& face, Vec2 weights) noexcept;
   /// Box around everything within `reach` of the segment from a to b, rounded outwards.
   static Box3f box_around(Vec3 a, Vec3 b, double reach) noexcept;
 
@@ -154,7 +160,7 @@ class ContactTriangles {
   static Vec3 unpacked(PackedNormal normal) noexcept;
   static std::array<PackedNormal, 3> packed_corner_normals(const ContactMesh& mesh, std::size_t t);
   double relief_top(std::uint32_t place) const noexcept;
-  double skinned_relief_height(const Face& face, const Foot& foot, Vec3* slope) const noexcept;
+  ReliefSample skinned_relief_at(const Face& face, Vec2 weights) const noexcept;
   static void move_approach(const Corners& t, Vec3 from, Vec3 way, double to, Approach& state) noexcept;
   bool advance(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
                Approach& state) const noexcept;
@@ -236,6 +242,19 @@ inline Box3f ContactTriangles::box_around(Vec3 a, Vec3 b, double reach) noexcept
   }
   const double scale = share(1, va + vb + vc), v = vb * scale, w = vc * scale;
   return {t.a + v * ab + w * ac, v, w, Foot::On::face, {}};
+}
+
+[[gnu::always_inline]] inline ContactTriangles::ReliefSample ContactTriangles::relief_at(const Face& face,
+                                                                                         Vec2 weights) noexcept {
+  HeightSample sample;
+  if (face.height != nullptr)
+    sample = face.height->sample_texels(face.texel + weights.x * face.texel_v + weights.y * face.texel_w);
+  const double height = sample.height_m - (face.shift + weights.x * face.shift_v + weights.y * face.shift_w);
+  if (height <= 0) return {};
+  const Vec2 by{dot(sample.gradient_m, face.texel_v) - face.shift_v,
+                dot(sample.gradient_m, face.texel_w) - face.shift_w};
+  const Vec2 slope = face.weights_by(by);
+  return {height, slope, dot(slope, by)};
 }
 
 }  // namespace papilla

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "papilla/core/cpu_clones.hpp"
 #include "papilla/core/error.hpp"
 #include "texels.hpp"
 
@@ -11,7 +12,7 @@ namespace papilla {
 namespace {
 
 /// Weights of Catmull and Rom (1974) for the samples at −1, 0, 1, 2, and their derivatives.
-void cubic_weights(double f, double* w, double* d) noexcept {
+[[gnu::always_inline]] inline void cubic_weights(double f, double* w, double* d) noexcept {
   const double f2 = f * f, f3 = f2 * f;
   w[0] = 0.5 * (-f3 + 2 * f2 - f);
   w[1] = 0.5 * (3 * f3 - 5 * f2 + 2);
@@ -24,16 +25,24 @@ void cubic_weights(double f, double* w, double* d) noexcept {
 }
 
 /// The same of the uniform cubic B-spline.
-void bspline_weights(double f, double* w, double* d) noexcept {
-  const double g = 1 - f, f2 = f * f;
-  w[0] = g * g * g / 6;
-  w[1] = (3 * f2 * f - 6 * f2 + 4) / 6;
-  w[2] = (-3 * f2 * f + 3 * f2 + 3 * f + 1) / 6;
-  w[3] = f2 * f / 6;
+[[gnu::always_inline]] inline void bspline_weights(double f, double* w, double* d) noexcept {
+  constexpr double k_sixth = 1.0 / 6;
+  const double g = 1 - f, f2 = f * f, f3 = f2 * f;
+  w[0] = k_sixth * (g * g * g);
+  w[1] = k_sixth * (3 * f3 - 6 * f2 + 4);
+  w[2] = k_sixth * (-3 * f3 + 3 * f2 + 3 * f + 1);
+  w[3] = k_sixth * f3;
   d[0] = -0.5 * g * g;
   d[1] = 0.5 * (3 * f2 - 4 * f);
   d[2] = 0.5 * (-3 * f2 + 2 * f + 1);
   d[3] = 0.5 * f2;
+}
+
+/// Σ weight[i] · value(i), in pairs: half as many additions wait for one another.
+template <std::size_t k_taps, class Value>
+[[gnu::always_inline]] inline double weighted_sum(const double* weight, const Value& value) noexcept {
+  if constexpr (k_taps == 2) return weight[0] * value(0) + weight[1] * value(1);
+  return (weight[0] * value(0) + weight[1] * value(1)) + (weight[2] * value(2) + weight[3] * value(3));
 }
 
 }  // namespace
@@ -71,52 +80,46 @@ std::uint16_t HeightField::texel(long x, long y) const noexcept {
 
 /// Weighted sums over k_taps × k_taps samples from (x, y) on, columns first, for SIMD.
 template <std::size_t k_taps>
-HeightField::Weighted HeightField::weighted(long x, long y, const Weights& along_x,
-                                            const Weights& along_y) const noexcept {
+[[gnu::always_inline]] inline HeightField::Weighted HeightField::weighted(long x, long y, const Weights& along_x,
+                                                                          const Weights& along_y) const noexcept {
   // On repeating maps most footprints lie inside one copy.
   const long left = options_.wrap[0] == Wrap::repeat ? wrapped(x, width_, Wrap::repeat) : x;
   const long top = options_.wrap[1] == Wrap::repeat ? wrapped(y, height_, Wrap::repeat) : y;
   const bool inside = left >= 0 && left + static_cast<long>(k_taps) <= width_;
-  long columns[k_taps];
-  if (!inside)
-    for (std::size_t i = 0; i < k_taps; ++i)
-      columns[i] = wrapped(left + static_cast<long>(i), width_, options_.wrap[0]);
-  double column[k_taps]{}, column_by_y[k_taps]{};
+  double v[k_taps][k_taps];
   for (std::size_t j = 0; j < k_taps; ++j) {
     const std::uint16_t* const row =
         &samples_[static_cast<std::size_t>(wrapped(top + static_cast<long>(j), height_, options_.wrap[1])) *
                   static_cast<std::size_t>(width_)];
-    double v[k_taps];
-    if (inside) {
+    if (inside)
       for (std::size_t i = 0; i < k_taps; ++i)
-        v[i] = static_cast<double>(static_cast<std::int32_t>(row[static_cast<std::size_t>(left) + i]));
-    } else {
-      for (std::size_t i = 0; i < k_taps; ++i) v[i] = row[columns[i]];
-    }
-    for (std::size_t i = 0; i < k_taps; ++i) {
-      column[i] += along_y.value[j] * v[i];
-      column_by_y[i] += along_y.slope[j] * v[i];
-    }
+        v[j][i] = static_cast<double>(static_cast<std::int32_t>(row[static_cast<std::size_t>(left) + i]));
+    else
+      for (std::size_t i = 0; i < k_taps; ++i)
+        v[j][i] = row[wrapped(left + static_cast<long>(i), width_, options_.wrap[0])];
   }
-  Weighted sum;
+  double column[k_taps], column_by_y[k_taps];
   for (std::size_t i = 0; i < k_taps; ++i) {
-    sum.value += along_x.value[i] * column[i];
-    sum.by_x += along_x.slope[i] * column[i];
-    sum.by_y += along_x.value[i] * column_by_y[i];
+    const auto below = [&](std::size_t j) noexcept { return v[j][i]; };
+    column[i] = weighted_sum<k_taps>(along_y.value, below);
+    column_by_y[i] = weighted_sum<k_taps>(along_y.slope, below);
   }
-  return sum;
+  const auto of_column = [&](std::size_t i) noexcept { return column[i]; };
+  return {weighted_sum<k_taps>(along_x.value, of_column), weighted_sum<k_taps>(along_x.slope, of_column),
+          weighted_sum<k_taps>(along_x.value, [&](std::size_t i) noexcept { return column_by_y[i]; })};
 }
 
-HeightSample HeightField::sample(Vec2 uv) const noexcept {
-  const double x = texel_coordinate(a_[0][0] * uv.x + a_[0][1] * uv.y + t_[0]);
-  const double y = texel_coordinate(a_[1][0] * uv.x + a_[1][1] * uv.y + t_[1]);
-  const HeightSample at = sample_texels(x, y);
-  return {at.height_m,
-          {at.gradient_m.x * a_[0][0] + at.gradient_m.y * a_[1][0],
-           at.gradient_m.x * a_[0][1] + at.gradient_m.y * a_[1][1]}};
+Vec2 HeightField::texel_at(Vec2 uv) const noexcept {
+  const auto along = [&](std::size_t axis, int size) noexcept {
+    const double at = a_[axis][0] * uv.x + a_[axis][1] * uv.y + t_[axis];
+    return options_.wrap[axis] == Wrap::repeat ? at - std::floor(at / size) * size : at;
+  };
+  return {along(0, width_), along(1, height_)};
 }
 
-HeightSample HeightField::sample_texels(double x, double y) const noexcept {
+PAPILLA_CPU_CLONES("avx2")
+HeightSample HeightField::sample_texels(Vec2 texel) const noexcept {
+  const double x = texel_coordinate(texel.x), y = texel_coordinate(texel.y);
   const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
   const long ix = static_cast<long>(x0), iy = static_cast<long>(y0);
   Weighted sum;

@@ -143,7 +143,7 @@ HeightField HeightField::overlaid(int factor, const std::vector<double>& added_m
                first = 0.5 * (step - 1);  // The centre of the first of `factor` samples in a texel.
   for (int y = 0; y < factor * height_; ++y)
     for (int x = 0; x < factor * width_; ++x)
-      heights.push_back(sample_texels(first + step * x, first + step * y).height_m + added_m[heights.size()]);
+      heights.push_back(sample_texels({first + step * x, first + step * y}).height_m + added_m[heights.size()]);
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   const double bottom = *low, range = *high - bottom;
   HeightFieldOptions options = options_;

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "exchange_seams.hpp"
 #include "lengthen_seams.hpp"
 #include "papilla/core/error.hpp"
 #include "seam_state.hpp"
@@ -220,13 +221,8 @@ class BoundKeeper {
     for (const SeamState& start : starts_) least = std::min(least, start.cost_mm);
     std::erase_if(near_, [&](const SeamState& state) { return !(state.cost_mm < least); });
     std::stable_sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) { return a.cost_mm < b.cost_mm; });
-    const MapSeams map_seams = [this](const std::vector<std::uint8_t>& seam) {
-      SeamState state = map(charts_between(mesh_, seam));
-      record(state);
-      return state;
-    };
     for (std::size_t i = 0; i < near_.size() && i < k_near_starts; ++i)
-      if (auto state = lengthen_seams(mesh_, std::move(near_[i]), bound_, map_seams, deadline_))
+      if (auto state = lengthen_seams(mesh_, std::move(near_[i]), bound_, map_fully_, deadline_))
         starts_.push_back(std::move(*state));
     near_.clear();
   }
@@ -272,7 +268,8 @@ class BoundKeeper {
       }
       if (!best || state.cost_mm < best->cost_mm) best = std::move(state);
     }
-    return std::move(*best);
+    *best = exchange_seams(mesh_, std::move(*best), bound_, map_seams, map_fully_, deadline_);
+    return straighten_seams(mesh_, std::move(*best), bound_, map_seams, deadline_);
   }
 
   SeamMesh mesh_;
@@ -292,6 +289,11 @@ class BoundKeeper {
   using Tries = std::map<double, Try>;                       ///< By seam cost.
   std::map<bool, Tries> tried_;                              ///< Without seams along features, and with.
   std::unordered_map<std::vector<bool>, SeamState> broken_;  ///< Maps that are no result, by their seams; without uv.
+  const MapSeams map_fully_ = [this](const std::vector<std::uint8_t>& seam) {
+    SeamState state = map(charts_between(mesh_, seam));
+    record(state);
+    return state;
+  };
   BoundedSeams result_;
 };
 

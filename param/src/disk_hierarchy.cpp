@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "disk_hierarchy.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +17,11 @@ constexpr Index k_none = ~Index{0};
 /// Vertices with more triangles stay until their neighbours are gone.
 constexpr std::size_t k_most_triangles = 24;
 
-/// Neighbours of a target that are looked through at most.
-constexpr std::size_t k_most_neighbors = 200;
+/// Triangles of a target that are looked through at most.
+constexpr std::size_t k_most_of_target = 200;
+
+/// Vertices that one thread judges at a time.
+constexpr std::size_t k_together = 256;
 
 /// In one pass, only the cheapest part of the vertices is removed.
 constexpr double k_pass_share = 0.8;
@@ -42,8 +48,7 @@ class DiskHierarchy::Coarsener {
         head_(positions.size(), k_none),
         tail_(positions.size(), k_none),
         next_(3 * h_.triangles_.size(), k_none),
-        locked_(positions.size(), 0),
-        stamp_(positions.size(), 0) {
+        locked_(positions.size(), 0) {
     for (Index c = 0; c < next_.size(); ++c) {
       const Index v = h_.triangles_[c / 3][c % 3];
       if (head_[v] == k_none)
@@ -88,19 +93,20 @@ class DiskHierarchy::Coarsener {
   };
 
   void pass(const Round& round, std::size_t enough) {
-    std::vector<Candidate> candidates;
-    candidates.reserve(vertices_.size());
-    Ring ring{};
-    for (const Index v : vertices_) {
-      if (!find_ring(v, ring)) continue;
-      const Candidate c = best_target(v, ring, round);
-      if (c.target != k_none) candidates.push_back(c);
-    }
+    for_all([&](Index, Index v) { drop_dead(v); });
+    std::vector<Candidate> candidates(vertices_.size());
+    for_all([&](Index i, Index v) {
+      Ring ring;
+      candidates[i] = find_ring(v, ring) ? best_target(v, ring, round) : Candidate{0, v, k_none};
+    });
+    std::erase_if(candidates, [](const Candidate& c) { return c.target == k_none; });
     const auto used = candidates.begin() +
                       static_cast<std::ptrdiff_t>(std::ceil(k_pass_share * static_cast<double>(candidates.size())));
     std::nth_element(candidates.begin(), used, candidates.end());
     std::sort(candidates.begin(), used);
     ++pass_;
+    h_.passes_.push_back(h_.removals_.size());
+    Ring ring;
     std::size_t left = vertices_.size();
     for (auto c = candidates.begin(); c != used && left > enough; ++c) {
       // An unlocked vertex still has the ring it was judged by; its target's neighbours may have changed.
@@ -117,24 +123,36 @@ class DiskHierarchy::Coarsener {
                                     ring.vertex.begin());
   }
 
+  /// Calls visit(place, vertex) for all that are left, in parallel.
   template <class Visit>
-  void each_corner(Index v, Visit visit) {
-    Index* link = &head_[v];
-    Index last = k_none;
-    while (*link != k_none) {
-      const Index c = *link;
-      if (!h_.alive_[c / 3]) {  // links to removed triangles are dropped on the way
-        *link = next_[c];
-        continue;
-      }
-      last = c;
-      if (!visit(c)) return;
-      link = &next_[c];
-    }
-    tail_[v] = last;
+  void for_all(const Visit& visit) const {
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, vertices_.size(), k_together),
+                              [&](const auto& range) {
+                                for (std::size_t i = range.begin(); i < range.end(); ++i)
+                                  visit(static_cast<Index>(i), vertices_[i]);
+                              });
   }
 
-  bool find_ring(Index v, Ring& ring) {
+  /// Takes corners of removed triangles out of the vertex's list.
+  void drop_dead(Index v) {
+    Index* link = &head_[v];
+    tail_[v] = k_none;
+    while (*link != k_none) {
+      const Index c = *link;
+      if (h_.alive_[c / 3])
+        tail_[v] = c, link = &next_[c];
+      else
+        *link = next_[c];
+    }
+  }
+
+  template <class Visit>
+  void each_corner(Index v, Visit visit) const {
+    for (Index c = head_[v]; c != k_none; c = next_[c])
+      if (h_.alive_[c / 3] && !visit(c)) return;
+  }
+
+  bool find_ring(Index v, Ring& ring) const {
     std::array<Index, k_most_triangles> from, to, triangle;
     std::size_t count = 0;
     bool small = true;
@@ -178,26 +196,26 @@ class DiskHierarchy::Coarsener {
   }
 
   /// The vertex may slide onto ring vertex `place`: the target has no edge yet to those it will be linked with.
-  bool may_merge(const Ring& ring, std::size_t place) {
-    const Index target = ring.vertex[place];
-    ++mark_;
-    std::size_t count = 0;
-    bool small = true;
-    each_corner(target, [&](Index c) {
-      if (++count > k_most_neighbors) return small = false;
-      const Triangle& t = h_.triangles_[c / 3];
-      stamp_[t[(c % 3 + 1) % 3]] = stamp_[t[(c % 3 + 2) % 3]] = mark_;
-      return true;
-    });
-    if (!small) return false;
+  bool may_merge(const Ring& ring, std::size_t place) const {
+    std::array<Index, k_most_triangles + 1> linked;  // Will be, and must not be yet.
+    std::size_t links = 0;
     for (std::size_t i = 0; i < ring.size; ++i) {
       const std::size_t apart = i > place ? i - place : place - i;
-      if (apart > 1 && !(ring.closed && apart == ring.size - 1) && stamp_[ring.vertex[i]] == mark_) return false;
+      if (apart > 1 && !(ring.closed && apart == ring.size - 1)) linked[links++] = ring.vertex[i];
     }
-    return true;
+    const auto is_linked = [&](Index v) {
+      return std::find(linked.begin(), linked.begin() + links, v) != linked.begin() + links;
+    };
+    std::size_t count = 0;
+    bool may = true;
+    each_corner(ring.vertex[place], [&](Index c) {
+      const Triangle& t = h_.triangles_[c / 3];
+      return may = ++count <= k_most_of_target && !is_linked(t[(c % 3 + 1) % 3]) && !is_linked(t[(c % 3 + 2) % 3]);
+    });
+    return may;
   }
 
-  Candidate best_target(Index v, Ring& ring, const Round& round) {
+  Candidate best_target(Index v, Ring& ring, const Round& round) const {
     const Vec3 origin = positions_[v];
     for (std::size_t i = 0; i < ring.size; ++i) ring.position[i] = positions_[ring.vertex[i]];
     ring.normal = {};
@@ -227,7 +245,7 @@ class DiskHierarchy::Coarsener {
     return squares > 0 ? 2 * std::sqrt(3.0) * doubled_area / squares : 0;
   }
 
-  double worst_shape(Vec3 origin, const Ring& ring) const {
+  static double worst_shape(Vec3 origin, const Ring& ring) {
     double worst = 1;
     for (std::size_t i = 0; i < ring.triangles; ++i) {
       const Vec3 p = ring.position[i] - origin, q = ring.position[ring.after(i)] - origin;
@@ -237,7 +255,7 @@ class DiskHierarchy::Coarsener {
     return worst;
   }
 
-  void consider(Index v, const Ring& ring, std::size_t place, const Round& round, Candidate& best) {
+  void consider(Index v, const Ring& ring, std::size_t place, const Round& round, Candidate& best) const {
     const Vec3 origin = positions_[v], target = ring.position[place];
     const Vec3 edge = target - origin, normal = ring.normal;
     const double size = norm(normal);
@@ -275,9 +293,9 @@ class DiskHierarchy::Coarsener {
     }
     for (std::size_t i = 0; i < ring.size; ++i) locked_[ring.vertex[i]] = pass_;
     locked_[v] = pass_;
-    each_corner(v, [](Index) { return true; });
+    drop_dead(v);
     if (head_[v] != k_none) {
-      each_corner(target, [](Index) { return true; });
+      drop_dead(target);
       if (head_[target] == k_none)
         head_[target] = head_[v];
       else
@@ -291,8 +309,8 @@ class DiskHierarchy::Coarsener {
   DiskHierarchy& h_;
   std::span<const Vec3> positions_;
   std::vector<Index> head_, tail_, next_;  ///< Corners of each vertex as a list.
-  std::vector<std::uint32_t> locked_, stamp_;
-  std::uint32_t pass_ = 0, mark_ = 0;
+  std::vector<std::uint32_t> locked_;
+  std::uint32_t pass_ = 0;
   std::vector<Index> vertices_;
 };
 
@@ -302,14 +320,22 @@ DiskHierarchy::DiskHierarchy(std::span<const Vec3> positions, std::span<const Tr
   removed_ = removals_.size();
 }
 
-Removal DiskHierarchy::restore() {
-  const Removal removal = removals_[--removed_];
-  for (const Index t : around(removal)) {
-    if (alive_[t]) std::replace(triangles_[t].begin(), triangles_[t].end(), removal.target, removal.vertex);
-    alive_[t] = 1;
-  }
-  ++vertex_count_;
-  return removal;
+std::size_t DiskHierarchy::apart() const {
+  return removed_ - *std::prev(std::lower_bound(passes_.begin(), passes_.end(), removed_));
+}
+
+std::span<const Removal> DiskHierarchy::restore(std::size_t count) {
+  removed_ -= count;
+  vertex_count_ += count;
+  const std::span<const Removal> undone(removals_.data() + removed_, count);
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, k_together), [&](const auto& range) {
+    for (const Removal& removal : undone.subspan(range.begin(), range.size()))
+      for (const Index t : around(removal)) {
+        if (alive_[t]) std::replace(triangles_[t].begin(), triangles_[t].end(), removal.target, removal.vertex);
+        alive_[t] = 1;
+      }
+  });
+  return undone;
 }
 
 void DiskHierarchy::remove_again() {

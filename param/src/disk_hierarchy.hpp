@@ -33,9 +33,11 @@ class DiskHierarchy {
   /// Removals that are not undone.
   std::size_t removed_count() const { return removed_; }
 
-  /// Undoes the last removal that is not undone yet, and tells which it was.
-  Removal restore();
-  /// Takes the last restore() back.
+  /// How many of the last removals, those that are not undone, have no triangle in common: at least one.
+  std::size_t apart() const;
+  /// Undoes that many of the last removals, at most apart(). @return the first of them first, which is undone last.
+  std::span<const Removal> restore(std::size_t count = 1);
+  /// Takes the last undone removal back.
   void remove_again();
   std::span<const Index> around(const Removal& removal) const {
     return {around_.data() + removal.first_around, removal.around_count};
@@ -46,6 +48,7 @@ class DiskHierarchy {
   std::vector<Triangle> triangles_;
   std::vector<char> alive_;
   std::vector<Removal> removals_;
+  std::vector<std::size_t> passes_;  ///< First removal of each pass: those of one lie apart.
   std::vector<Index> around_;
   std::size_t removed_ = 0, vertex_count_ = 0;
 };

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "multilevel_map.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -24,6 +28,9 @@ constexpr std::size_t k_base_vertices = 24;
 /// Vertices of a level over those of the one before; fewer where the border is watched and vertices have less room.
 constexpr std::size_t k_growth = 6;
 constexpr std::size_t k_guarded_growth = 3;
+
+/// Vertices that one thread places at a time.
+constexpr std::size_t k_together = 256;
 
 /// Triangles of coarse levels count as having at least this part of the mean area: their shape is not the surface's,
 /// and slivers keep vertices from moving one by one. On the finest level this holds, until it is relaxed, for
@@ -353,9 +360,7 @@ class Multilevel {
     store_uv(level);
     guarded_ = false;
     guard_.reset();
-    const LeastArea least = least_area(true);
-    while (hierarchy_.removed_count() > 0)
-      if (!insert_next(least)) return false;
+    if (!insert_down_to(0, least_area(true))) return false;
     level = make_level();
     relax(level, k_guarded_sweeps, k_relax_tolerance, false);
     restore_slivers(level, false);
@@ -479,35 +484,54 @@ class Multilevel {
       for (BorderPair& pair : border) pair = {level.vertices[pair[0]], level.vertices[pair[1]]};
       guard_.emplace(std::move(border), uv_);
     }
-    while (hierarchy_.removed_count() > leave)
-      if (!insert_next(least)) {
-        hierarchy_.remove_again();
-        break;
-      }
+    insert_down_to(leave, least);
     if (hierarchy_.removed_count() == before) return false;
     level = make_level();
     return true;
   }
 
-  bool insert_next(LeastArea least_area) {
-    const Removal removal = hierarchy_.restore();
-    ring_.clear();
+  /// Inserts removed vertices until `leave` are missing or the next one has no valid place, which is said. Those that
+  /// don't touch one another are placed in parallel while the border is not watched.
+  bool insert_down_to(std::size_t leave, LeastArea least_area) {
+    while (hierarchy_.removed_count() > leave) {
+      const std::size_t missing = hierarchy_.removed_count() - leave;
+      const std::span<const Removal> back = hierarchy_.restore(guard_ ? 1 : std::min(hierarchy_.apart(), missing));
+      std::atomic<std::size_t> refused = 0;  // The first ones of `back`, which come back last.
+      const auto place = [&](const auto& range) {
+        std::vector<RingEdge> ring;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          if (insert(back[i], least_area, ring)) continue;
+          std::size_t known = refused;
+          while (known < i + 1 && !refused.compare_exchange_weak(known, i + 1)) {
+          }
+        }
+      };
+      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, back.size(), k_together), place);
+      for (std::size_t i = 0; i < refused; ++i) hierarchy_.remove_again();
+      if (refused > 0) return false;
+    }
+    return true;
+  }
+
+  /// Puts a vertex that has its triangles again into its ring.
+  bool insert(const Removal& removal, LeastArea least_area, std::vector<RingEdge>& ring) {
+    ring.clear();
     Index first = ~Index{0}, last = first;
     for (const Index t : hierarchy_.around(removal)) {
       const Triangle& c = hierarchy_.triangles()[t];
       const std::size_t k = c[0] == removal.vertex ? 0 : c[1] == removal.vertex ? 1 : 2;
       const Index a = c[(k + 1) % 3], b = c[(k + 2) % 3];
-      if (ring_.empty()) first = a;
+      if (ring.empty()) first = a;
       last = b;
-      ring_.push_back({uv_[a], uv_[b],
-                       rest_shape(chart_.positions[removal.vertex], chart_.positions[a], chart_.positions[b],
-                                  least_edge_, least_area)});
+      ring.push_back({uv_[a], uv_[b],
+                      rest_shape(chart_.positions[removal.vertex], chart_.positions[a], chart_.positions[b],
+                                 least_edge_, least_area)});
     }
     Vec2& place = uv_[removal.vertex];
-    if (!guard_ || first == last) return place_in_ring(ring_, {}, place);
+    if (!guard_ || first == last) return place_in_ring(ring, {}, place);
     // The border ran from the ring's last vertex to its first one.
     const auto free = [&](Vec2 p) { return guard_->may_split(last, first, removal.vertex, p); };
-    if (!place_in_ring(ring_, free, place)) return false;
+    if (!place_in_ring(ring, free, place)) return false;
     guard_->split(last, first, removal.vertex, place);
     return true;
   }
@@ -523,7 +547,6 @@ class Multilevel {
   bool gives_up_ = std::isfinite(options_.give_up_energy);
   bool guarded_ = false;    ///< The border is kept from running into itself.
   double mean_energy_ = 0;  ///< Per area, of the level before.
-  std::vector<RingEdge> ring_;
   std::optional<BorderGuard> guard_;
   MultilevelMap result_;
 };

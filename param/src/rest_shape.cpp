@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "rest_shape.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 namespace papilla::param_detail {
 namespace {
 
 /// Of the mean edge.
 constexpr double k_least_edge = 1e-6;
+
+/// Triangles that one thread works through at a time.
+constexpr std::size_t k_together = 4096;
 
 }  // namespace
 
@@ -19,10 +25,14 @@ double least_edge(std::span<const Vec3> positions, std::span<const Triangle> tri
 std::vector<RestShape> rest_shapes(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                    LeastArea least_area) {
   const double least = least_edge(positions, triangles);
-  std::vector<RestShape> shapes;
-  shapes.reserve(triangles.size());
-  for (const Triangle& t : triangles)
-    shapes.push_back(rest_shape(positions[t[0]], positions[t[1]], positions[t[2]], least, least_area));
+  std::vector<RestShape> shapes(triangles.size());
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<std::size_t>(0, shapes.size(), k_together), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const Triangle& t = triangles[i];
+          shapes[i] = rest_shape(positions[t[0]], positions[t[1]], positions[t[2]], least, least_area);
+        }
+      });
   return shapes;
 }
 

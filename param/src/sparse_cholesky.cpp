@@ -16,240 +16,12 @@
 namespace papilla::param_detail {
 namespace {
 
-/// A separator longer than this times √(number of unknowns) is worth a search for a shorter one.
-constexpr double k_long_separator = 1.2;
-
-struct Graph {
-  std::vector<Index> first, neighbors;
-  std::span<const Index> of(Index v) const { return {neighbors.data() + first[v], first[v + 1] - first[v]}; }
-};
-
-Graph graph_of(const Elements& elements, Index count) {
-  // The elements of each vertex.
-  std::vector<Index> begin(count + 2, 0), room(count + 1, 0), element_of(elements.vertices.size());
-  for (const Index v : elements.vertices) ++begin[v + 2];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  for (Index e = 0; e < elements.count(); ++e)
-    for (const Index v : elements.of(e)) {
-      element_of[begin[v + 1]++] = e;
-      room[v + 1] += static_cast<Index>(elements.of(e).size()) - 1;
-    }
-  std::partial_sum(room.begin(), room.end(), room.begin());
-  // Vertices enter their neighbours' lists in ascending order, so that a second time comes right after the first.
-  std::vector<Index> list(room.back()), end(room.begin(), room.end() - 1);
-  for (Index v = 0; v < count; ++v)
-    for (Index i = begin[v]; i < begin[v + 1]; ++i)
-      for (const Index w : elements.of(element_of[i]))
-        if (w != v && (end[w] == room[w] || list[end[w] - 1] != v)) list[end[w]++] = v;
-  Graph graph;
-  graph.first.assign(1, 0);
-  graph.first.reserve(count + 1);
-  for (Index v = 0; v < count; ++v) graph.first.push_back(graph.first.back() + end[v] - room[v]);
-  graph.neighbors.reserve(graph.first.back());
-  for (Index v = 0; v < count; ++v)
-    graph.neighbors.insert(graph.neighbors.end(), list.begin() + room[v], list.begin() + end[v]);
-  return graph;
-}
-
-class Dissector {
- public:
-  Dissector(const Graph& graph, std::span<const Vec3> where, Index leaf)
-      : graph_(graph), where_(where), leaf_(leaf), region_(where.size(), 0), mark_(where.size(), 0) {
-    result_.order.reserve(where.size());
-    result_.position.resize(where.size());
-  }
-
-  Dissection run() {
-    std::vector<Index> all(where_.size());
-    std::iota(all.begin(), all.end(), Index{0});
-    split(all);
-    return std::move(result_);
-  }
-
- private:
-  /// @return the front of the members' subtree.
-  Index split(std::span<Index> members) {
-    if (members.size() <= leaf_) return add_front(members, k_no_front, k_no_front);
-    const std::uint32_t inside = ++regions_;
-    for (const Index v : members) region_[v] = inside;
-    Cut best = cut_along_longest_axis(members, inside);
-    if (static_cast<double>(best.separator) > k_long_separator * std::sqrt(static_cast<double>(members.size()))) {
-      const Cut by_distance = cut_by_distance(members, inside);
-      if (by_distance.separator < best.separator) best = by_distance;
-    }
-    arrange(members, best);
-    const Index left = split(members.subspan(0, best.left));
-    const Index right = split(members.subspan(best.left, best.right));
-    return add_front(members.subspan(best.left + best.right), left, right);
-  }
-
-  /// The members of the left part, the right part and the separator, in this order.
-  struct Cut {
-    std::vector<Index> members;
-    std::size_t left = 0, right = 0, separator = std::numeric_limits<std::size_t>::max();
-  };
-
-  static void arrange(std::span<Index> members, const Cut& cut) {
-    std::copy(cut.members.begin(), cut.members.end(), members.begin());
-  }
-
-  Cut cut_along_longest_axis(std::span<const Index> members, std::uint32_t inside) {
-    Bounds3 bounds;
-    for (const Index v : members) bounds.add(where_[v]);
-    const Vec3 extent = bounds.size();
-    double Vec3::*axis = &Vec3::x;
-    if (extent.y > extent.*axis) axis = &Vec3::y;
-    if (extent.z > extent.*axis) axis = &Vec3::z;
-    std::vector<Index> sorted(members.begin(), members.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end(), [&](Index a, Index b) {
-      const double x = where_[a].*axis, y = where_[b].*axis;
-      return x != y ? x < y : a < b;
-    });
-    return cut_at(std::move(sorted), members.size() / 2, inside);
-  }
-
-  /// Breadth first from a member that is far from the first one; split where half of the members are reached.
-  Cut cut_by_distance(std::span<const Index> members, std::uint32_t inside) {
-    const Index far = breadth_first(members, members[0], inside).back();
-    return cut_at(breadth_first(members, far, inside), members.size() / 2, inside);
-  }
-
-  /// All members by distance from `start`; those of other components follow.
-  std::vector<Index> breadth_first(std::span<const Index> members, Index start, std::uint32_t inside) {
-    const std::uint32_t seen = ++marks_;
-    std::vector<Index> queue{start};
-    queue.reserve(members.size());
-    mark_[start] = seen;
-    std::size_t next_member = 0;
-    for (std::size_t i = 0; queue.size() < members.size();) {
-      if (i == queue.size()) {
-        while (mark_[members[next_member]] == seen) ++next_member;
-        queue.push_back(members[next_member]);
-        mark_[members[next_member]] = seen;
-      }
-      for (const Index w : graph_.of(queue[i++]))
-        if (region_[w] == inside && mark_[w] != seen) mark_[w] = seen, queue.push_back(w);
-    }
-    return queue;
-  }
-
-  /// Splits a sorted list at `middle`; the separator covers every edge between the halves.
-  Cut cut_at(std::vector<Index> sorted, std::size_t middle, std::uint32_t inside) {
-    const std::uint32_t right_half = ++marks_;
-    for (std::size_t i = middle; i < sorted.size(); ++i) mark_[sorted[i]] = right_half;
-    const std::uint32_t right_at_cut = ++marks_, separator = ++marks_;
-    std::array<std::vector<Index>, 2> at_cut;
-    for (std::size_t i = 0; i < middle; ++i) {
-      bool touches = false;
-      for (const Index w : graph_.of(sorted[i]))
-        if (region_[w] == inside && (mark_[w] == right_half || mark_[w] == right_at_cut))
-          touches = true, mark_[w] = right_at_cut;
-      if (touches) at_cut[0].push_back(sorted[i]);
-    }
-    for (std::size_t i = middle; i < sorted.size(); ++i)
-      if (mark_[sorted[i]] == right_at_cut) at_cut[1].push_back(sorted[i]);
-    // The half whose members at the cut are fewer gives the separator.
-    const std::vector<Index>& chosen = at_cut[at_cut[1].size() < at_cut[0].size()];
-    std::vector<Index> members;
-    members.reserve(sorted.size());
-    for (const Index v : chosen) mark_[v] = separator;
-    Cut cut;
-    for (std::size_t i = 0; i < middle; ++i)
-      if (mark_[sorted[i]] != separator) members.push_back(sorted[i]);
-    cut.left = members.size();
-    for (std::size_t i = middle; i < sorted.size(); ++i)
-      if (mark_[sorted[i]] != separator) members.push_back(sorted[i]);
-    cut.right = members.size() - cut.left;
-    cut.separator = chosen.size();
-    members.insert(members.end(), chosen.begin(), chosen.end());
-    cut.members = std::move(members);
-    return cut;
-  }
-
-  Index add_front(std::span<const Index> own, Index left, Index right) {
-    Front front;
-    front.begin = static_cast<Index>(result_.order.size());
-    for (const Index v : own) {
-      result_.position[v] = static_cast<Index>(result_.order.size());
-      result_.order.push_back(v);
-    }
-    front.end = static_cast<Index>(result_.order.size());
-    front.left = left, front.right = right;
-    const auto self = static_cast<Index>(result_.fronts.size());
-    for (const Index child : {left, right})
-      if (child != k_no_front) result_.fronts[child].parent = self;
-    result_.fronts.push_back(std::move(front));
-    return self;
-  }
-
-  const Graph& graph_;
-  std::span<const Vec3> where_;
-  Index leaf_;
-  std::vector<std::uint32_t> region_, mark_;
-  std::uint32_t regions_ = 0, marks_ = 0;
-  Dissection result_;
-};
-
-void find_rows(const Graph& graph, Dissection& dissection) {
-  std::vector<Index> seen(dissection.order.size(), k_no_front);
-  for (Index f = 0; f < dissection.fronts.size(); ++f) {
-    Front& front = dissection.fronts[f];
-    const auto take = [&](Index row) {
-      if (row >= front.end && seen[row] != f) seen[row] = f, front.rows.push_back(row);
-    };
-    for (Index i = front.begin; i < front.end; ++i)
-      for (const Index w : graph.of(dissection.order[i])) take(dissection.position[w]);
-    for (const Index child : {front.left, front.right})
-      if (child != k_no_front)
-        for (const Index row : dissection.fronts[child].rows) take(row);
-    std::sort(front.rows.begin(), front.rows.end());
-  }
-}
-
-void link_to_parents(Dissection& dissection) {
-  for (Front& front : dissection.fronts) {
-    if (front.parent == k_no_front) continue;
-    const Front& parent = dissection.fronts[front.parent];
-    front.into_parent.reserve(front.rows.size());
-    auto next = parent.rows.begin();
-    for (const Index row : front.rows) {
-      if (row < parent.end) {
-        front.into_parent.push_back(row - parent.begin);
-        continue;
-      }
-      next = std::lower_bound(next, parent.rows.end(), row);
-      front.into_parent.push_back(parent.own() + static_cast<Index>(next - parent.rows.begin()));
-    }
-  }
-}
-
-void distribute_elements(const Elements& elements, Dissection& dissection) {
-  std::vector<Index> front_of(dissection.order.size());
-  for (Index f = 0; f < dissection.fronts.size(); ++f)
-    for (Index i = dissection.fronts[f].begin; i < dissection.fronts[f].end; ++i) front_of[i] = f;
-  for (std::size_t e = 0; e < elements.count(); ++e) {
-    if (elements.of(e).empty()) continue;
-    Index first = ~Index{0};
-    for (const Index v : elements.of(e)) first = std::min(first, dissection.position[v]);
-    dissection.fronts[front_of[first]].elements.push_back(static_cast<Index>(e));
-  }
-}
-
-void count_work(Dissection& dissection) {
-  for (Front& front : dissection.fronts) {
-    const std::size_t own = front.own(), rows = front.rows.size();
-    front.subtree_work = own * (own * own / 3 + own * rows + rows * rows);
-    for (const Index child : {front.left, front.right})
-      if (child != k_no_front) front.subtree_work += dissection.fronts[child].subtree_work;
-  }
-}
-
 /// Unknowns at which dissection stops: smaller fronts cost more in bookkeeping than they save.
 constexpr Index k_leaf = 24;
 
 /// Branches with fewer multiplications are not worth a task of their own.
 constexpr std::size_t k_parallel_work = 500'000;
+constexpr std::size_t k_parallel_solve_work = 8'000'000;
 
 /// Panels are kept in blocks of about this size: of blocks that the system has to clear there are then none for small
 /// charts, one after the other. Those of large charts are large arrays.
@@ -262,24 +34,6 @@ double conjugate(double x) { return x; }
 std::complex<double> conjugate(std::complex<double> x) { return std::conj(x); }
 
 }  // namespace
-
-Elements elements_of(std::span<const Triangle> triangles) {
-  Elements elements;
-  elements.first.reserve(triangles.size() + 1);
-  elements.vertices.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles) elements.add(t);
-  return elements;
-}
-
-Dissection dissect(const Elements& elements, std::span<const Vec3> where, Index leaf) {
-  const Graph graph = graph_of(elements, static_cast<Index>(where.size()));
-  Dissection dissection = Dissector(graph, where, leaf).run();
-  find_rows(graph, dissection);
-  link_to_parents(dissection);
-  distribute_elements(elements, dissection);
-  count_work(dissection);
-  return dissection;
-}
 
 /// What a front hands to its parent: a square matrix over its rows, lower half, column by column.
 template <class Scalar>
@@ -302,13 +56,15 @@ SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const
   for (std::size_t e = 0; e < elements_.count(); ++e)
     largest_element_ = std::max(largest_element_, width_ * elements_.of(e).size());
   place_.resize(elements_.vertices.size());
-  for (const Front& front : dissection_.fronts)
+  for_each_front(dissection_.fronts, [&](Index f) {
+    const Front& front = dissection_.fronts[f];
     for (const Index e : front.elements)
       for (Index i = elements_.first[e]; i < elements_.first[e + 1]; ++i) {
         const Index row = dissection_.position[elements_.vertices[i]];
         const auto found = std::lower_bound(front.rows.begin(), front.rows.end(), row) - front.rows.begin();
         place_[i] = row < front.end ? row - front.begin : front.own() + static_cast<Index>(found);
       }
+  });
   make_panels();
   bad_pivots_.resize(dissection_.fronts.size());
   count_needs();
@@ -468,35 +224,75 @@ void SparseCholesky<Scalar>::add_update(const std::vector<Index>& into, const Up
 }
 
 template <class Scalar>
+struct SparseCholesky<Scalar>::Solution {
+  std::vector<Scalar> x;
+  std::vector<std::size_t> first;  ///< Of a front's numbers in `of_front`: its own ones, then its rows'.
+  std::vector<Scalar> of_front;
+};
+
+template <class Scalar>
+template <class Work>
+void SparseCholesky<Scalar>::on_branches(const Front& front, const Work& work) const {
+  if (front.left == k_no_front) return;
+  if (front.subtree_work * width_ * width_ * width_ > k_parallel_solve_work) {
+    oneapi::tbb::parallel_invoke([&] { work(front.left); }, [&] { work(front.right); });
+  } else {
+    work(front.left);
+    work(front.right);
+  }
+}
+
+/// L y = b, from the leaves to the front: what its rows lose by the branches below is summed on the way.
+template <class Scalar>
+void SparseCholesky<Scalar>::solve_up(Index f, Solution& solution) const {
+  const Front& front = dissection_.fronts[f];
+  on_branches(front, [&](Index branch) { solve_up(branch, solution); });
+  const std::size_t rows = width_ * front.size(), own = width_ * front.own();
+  Scalar* numbers = solution.of_front.data() + solution.first[f];
+  Scalar* const x = solution.x.data() + width_ * front.begin;
+  std::copy_n(x, own, numbers);
+  std::fill(numbers + own, numbers + rows, Scalar(0));
+  for (const Index child : {front.left, front.right}) {
+    if (child == k_no_front) continue;
+    const Front& below = dissection_.fronts[child];
+    const Scalar* lost = solution.of_front.data() + solution.first[child] + width_ * below.own();
+    for (std::size_t i = 0; i < below.into_parent.size(); ++i)
+      for (std::size_t k = 0; k < width_; ++k) numbers[width_ * below.into_parent[i] + k] += lost[width_ * i + k];
+  }
+  solve_forward(panel_[f], rows, own, numbers);
+  std::copy_n(numbers, own, x);
+}
+
+/// Lᴴ x = y, from the front to the leaves.
+template <class Scalar>
+void SparseCholesky<Scalar>::solve_down(Index f, Solution& solution) const {
+  const Front& front = dissection_.fronts[f];
+  const std::size_t rows = width_ * front.size(), own = width_ * front.own();
+  Scalar* numbers = solution.of_front.data() + solution.first[f];
+  Scalar* const x = solution.x.data() + width_ * front.begin;
+  for (std::size_t i = 0; i < front.rows.size(); ++i)
+    for (std::size_t k = 0; k < width_; ++k) numbers[own + width_ * i + k] = solution.x[width_ * front.rows[i] + k];
+  solve_backward(panel_[f], rows, own, numbers);
+  std::copy_n(numbers, own, x);
+  on_branches(front, [&](Index branch) { solve_down(branch, solution); });
+}
+
+template <class Scalar>
 void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
-  std::vector<Scalar> x(b.size()), local;
+  const std::vector<Front>& fronts = dissection_.fronts;
+  Solution solution;
+  solution.x.resize(b.size());
   for (std::size_t i = 0; i < dissection_.order.size(); ++i)
-    for (std::size_t k = 0; k < width_; ++k) x[width_ * i + k] = b[width_ * dissection_.order[i] + k];
-  const auto each_row = [&](const Front& front, auto visit) {
-    std::size_t place = width_ * front.own();
-    for (const Index row : front.rows)
-      for (std::size_t k = 0; k < width_; ++k) visit(width_ * row + k, place++);
-  };
-  for (std::size_t f = 0; f < dissection_.fronts.size(); ++f) {
-    const Front& front = dissection_.fronts[f];
-    const std::size_t rows = width_ * front.size(), own = width_ * front.own();
-    local.assign(rows, Scalar(0));
-    std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
-    solve_forward(panel_[f], rows, own, local.data());
-    std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
-    each_row(front, [&](std::size_t row, std::size_t place) { x[row] += local[place]; });
-  }
-  for (std::size_t f = dissection_.fronts.size(); f-- > 0;) {
-    const Front& front = dissection_.fronts[f];
-    const std::size_t rows = width_ * front.size(), own = width_ * front.own();
-    local.resize(rows);
-    std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
-    each_row(front, [&](std::size_t row, std::size_t place) { local[place] = x[row]; });
-    solve_backward(panel_[f], rows, own, local.data());
-    std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
-  }
+    for (std::size_t k = 0; k < width_; ++k) solution.x[width_ * i + k] = b[width_ * dissection_.order[i] + k];
+  std::size_t all = 0;
+  solution.first.reserve(fronts.size());
+  for (const Front& front : fronts) solution.first.push_back(std::exchange(all, all + width_ * front.size()));
+  solution.of_front.resize(all);
+  const auto root = static_cast<Index>(fronts.size() - 1);
+  solve_up(root, solution);
+  solve_down(root, solution);
   for (std::size_t i = 0; i < dissection_.order.size(); ++i)
-    for (std::size_t k = 0; k < width_; ++k) b[width_ * dissection_.order[i] + k] = x[width_ * i + k];
+    for (std::size_t k = 0; k < width_; ++k) b[width_ * dissection_.order[i] + k] = solution.x[width_ * i + k];
 }
 
 template class SparseCholesky<double>;

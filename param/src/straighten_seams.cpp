@@ -18,7 +18,7 @@ constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_corridor = 0.25;
 
 /// A new way that costs more than this part of the old one is not worth a map.
-constexpr double k_worthwhile = 0.99;
+constexpr double k_worthwhile = 0.998;
 
 /// As often half of the new ways is given up where all of them break the bound.
 constexpr int k_attempts = 4;

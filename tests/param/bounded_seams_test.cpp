@@ -88,10 +88,12 @@ TEST(BoundedSeams, WhatBrokeTheBoundIsNotMappedAgain) {
   const auto map = tools.map;
   std::vector<ChartSet> tried;
   tools.map = [&](const ChartSet& charts, double most_excess_mm2) {
-    EXPECT_NEAR(most_excess_mm2, 0.05 * 400, 1e-3);
-    for (const ChartSet& before : tried)
-      EXPECT_FALSE(before.of_triangle == charts.of_triangle && before.cuts == charts.cuts);
-    tried.push_back(charts);
+    if (std::isfinite(most_excess_mm2)) {  // Else its uv are needed, too.
+      EXPECT_NEAR(most_excess_mm2, 0.05 * 400, 1e-3);
+      for (const ChartSet& before : tried)
+        EXPECT_FALSE(before.of_triangle == charts.of_triangle && before.cuts == charts.cuts);
+      tried.push_back(charts);
+    }
     ChartedMap charted = map(charts, most_excess_mm2);
     if (charts.count == 1)
       for (Vec2& p : charted.flattening.uv.values) p.y *= 2;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <vector>
 
+#include "exchange_seams.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/param/best.hpp"
 #include "papilla_test/shapes.hpp"
+#include "seam_paths.hpp"
 #include "support/formula_meshes.hpp"
 
 namespace papilla {
@@ -67,6 +69,25 @@ TEST_F(SlitHemisphere, RunsOnAlongItsMeridianUntilTheBoundIsKept) {
     if (!state->seam[h] || seams_.opposite[h] == k_no_triangle) continue;
     EXPECT_TRUE(is_on_meridian(seams_.from(h)) && is_on_meridian(seams_.to(h))) << h;
   }
+}
+
+TEST_F(SlitHemisphere, OneLongSlitIsExchangedForTwo) {
+  // Two of 4 edges each do less than one of 6, and neither of them can be closed a little.
+  std::vector<std::uint8_t> seam = slit(30);
+  const auto is_below = [&](Index v) { return mesh_.positions[v].z < 30; };
+  const auto is_on_y = [&](Index v) { return std::abs(mesh_.positions[v].x) < 1e-9 && mesh_.positions[v].y > 1e-9; };
+  for (Index h = 0; h < seam.size(); ++h)
+    if (is_on_y(seams_.from(h)) && is_on_y(seams_.to(h)) && is_below(seams_.from(h)) && is_below(seams_.to(h)))
+      seam[h] = 1;
+  const SeamState start = map(seam, {});
+  const DistortionBound bound{start.distortion, {}};
+  const MapSeams map_seams = [&](const auto& tried) { return map(tried, bound); };
+  std::vector<double> doubt(seam.size(), 1);
+  EXPECT_EQ(shorten_seams(seams_, start, bound, map_seams, doubt, {}).seam_mm, start.seam_mm);
+  const SeamState exchanged = exchange_seams(seams_, start, bound, map_seams, map_seams, {});
+  EXPECT_LE(exchanged.distortion, bound.most + k_bound_slack);
+  EXPECT_NEAR(exchanged.seam_mm, 0.75 * start.seam_mm, 1e-9);
+  EXPECT_EQ(seam_paths(seams_, exchanged).size(), 1U);
 }
 
 TEST_F(SlitHemisphere, WhatHasNoTipIsLeft) {

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <map>
 #include <random>
+#include <set>
 
 #include "border_guard.hpp"
 #include "convex_map.hpp"
@@ -282,8 +284,7 @@ TEST(Descent, ForeseesTheEnd) {
 }
 
 template <class Scalar>
-void expect_solution(int width) {
-  const TriangleMesh mesh = test::dashboard_mesh(23, 17);
+void expect_solution(int width, const TriangleMesh& mesh = test::dashboard_mesh(23, 17)) {
   const auto size = static_cast<std::size_t>(3 * width);
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -321,6 +322,47 @@ TEST(SparseCholesky, SolvesWhatItFactored) {
   expect_solution<double>(1);
   expect_solution<double>(2);
   expect_solution<std::complex<double>>(1);
+}
+
+TEST(SparseCholesky, SolvesInParallelBranches) {
+  expect_solution<double>(2, test::dashboard_mesh(190, 70));  // oblong, halves of 6,500 vertices
+}
+
+TEST(Dissect, BranchesAreCoupledByTheirSeparatorsAlone) {
+  const TriangleMesh mesh = test::dashboard_mesh(190, 70);
+  const Elements elements = elements_of(mesh.triangles);
+  const Dissection dissection = dissect(elements, mesh.positions, 24);
+  std::vector<Index> sorted = dissection.order;
+  std::sort(sorted.begin(), sorted.end());
+  for (Index v = 0; v < sorted.size(); ++v) ASSERT_EQ(sorted[v], v);
+  ASSERT_EQ(sorted.size(), mesh.positions.size());
+  Index begin = 0;
+  for (Index f = 0; f < dissection.fronts.size(); ++f) {
+    const Front& front = dissection.fronts[f];
+    EXPECT_EQ(front.begin, begin);
+    begin = front.end;
+    for (const Index child : {front.left, front.right})
+      if (child != k_no_front) {
+        EXPECT_LT(child, f);
+        EXPECT_EQ(dissection.fronts[child].parent, f);
+      }
+  }
+  EXPECT_EQ(begin, mesh.positions.size());
+  // An element lies in one branch: the fronts of its vertices are ancestors of one another.
+  std::vector<Index> front_of(mesh.positions.size());
+  for (Index f = 0; f < dissection.fronts.size(); ++f)
+    for (Index i = dissection.fronts[f].begin; i < dissection.fronts[f].end; ++i) front_of[i] = f;
+  for (const Triangle& t : mesh.triangles) {
+    std::array<Index, 3> fronts;
+    for (std::size_t k = 0; k < 3; ++k) fronts[k] = front_of[dissection.position[t[k]]];
+    std::sort(fronts.begin(), fronts.end());
+    Index f = fronts[0];
+    for (const Index above : fronts)
+      while (f != above) {
+        ASSERT_NE(f, k_no_front);
+        f = dissection.fronts[f].parent;
+      }
+  }
 }
 
 TEST(SparseCholesky, PivotsThatAreNotPositiveAreCountedAndHeld) {
@@ -364,6 +406,30 @@ TEST(DiskHierarchy, GoesBackToTheMeshItCameFrom) {
   }
   EXPECT_TRUE(std::ranges::equal(hierarchy.triangles(), mesh.triangles));
   EXPECT_EQ(hierarchy.vertex_count(), mesh.positions.size());
+}
+
+TEST(DiskHierarchy, RemovalsThatLieApartComeBackTogether) {
+  const TriangleMesh mesh = test::hemisphere_mesh(30, 60);
+  DiskHierarchy together(mesh.positions, mesh.triangles, 10), alone(mesh.positions, mesh.triangles, 10);
+  std::size_t most = 0;
+  while (together.removed_count() > 0) {
+    const std::size_t count = together.apart();
+    ASSERT_GE(count, 1U);
+    most = std::max(most, count);
+    std::set<Index> triangles;
+    for (const Removal& removal : together.restore(count))
+      for (const Index t : together.around(removal)) EXPECT_TRUE(triangles.insert(t).second);
+    for (std::size_t i = 0; i < count; ++i) alone.restore();
+    ASSERT_EQ(together.removed_count(), alone.removed_count());
+    ASSERT_EQ(together.vertex_count(), alone.vertex_count());
+    for (Index t = 0; t < mesh.triangles.size(); ++t) {
+      ASSERT_EQ(together.alive(t), alone.alive(t));
+      if (alone.alive(t)) {
+        ASSERT_EQ(together.triangles()[t], alone.triangles()[t]);
+      }
+    }
+  }
+  EXPECT_GT(most, 200U);
 }
 
 TEST(DiskHierarchy, RemoveAgainUndoesRestore) {

@@ -50,7 +50,12 @@ class HeightField {
   /// @throws InvalidInput when a size is zero, the number of samples differs from it, or an option is not finite.
   HeightField(int width, int height, std::vector<std::uint16_t> samples, const HeightFieldOptions& options);
 
-  HeightSample sample(Vec2 uv) const noexcept;
+  HeightSample sample(Vec2 uv) const noexcept { return by_uv(sample_texels(texel_at(uv))); }
+
+  /// Texel coordinates of a place, the centre of the first texel at (0, 0); in the first copy of a map that repeats.
+  Vec2 texel_at(Vec2 uv) const noexcept;
+  /// The same by texel coordinates; the gradient is in metres per texel.
+  HeightSample sample_texels(Vec2 texel) const noexcept;
 
   /// Grey dilation by a ball of radius r: H(a) = max over |b−a| ≤ r of h(b) + √(r² − |b−a|²) − r, the height of the
   /// ball's centre less r (as the tip of a force microscope dilates a relief). Exact on the samples; quantised to 16
@@ -109,9 +114,6 @@ class HeightField {
     double value = 0, by_x = 0, by_y = 0;
   };
 
-  /// Height and its derivatives by texel coordinates.
-  HeightSample sample_texels(double x, double y) const noexcept;
-
   /// Bounds of the interpolated samples; slopes per texel.
   struct Extremes {
     double least, most;
@@ -124,6 +126,11 @@ class HeightField {
   };
 
   std::uint16_t texel(long x, long y) const noexcept;
+  HeightSample by_uv(const HeightSample& at) const noexcept {
+    return {at.height_m,
+            {at.gradient_m.x * a_[0][0] + at.gradient_m.y * a_[1][0],
+             at.gradient_m.x * a_[0][1] + at.gradient_m.y * a_[1][1]}};
+  }
   std::optional<Steps> steps(Vec2 metres_per_uv) const;
   std::vector<std::uint16_t> quantised(const std::vector<double>& heights_m) const;
   template <std::size_t k_taps>
