@@ -34,6 +34,7 @@ class DiskHierarchy {
   std::size_t removed_count() const { return removed_; }
 
   /// How many of the last removals, those that are not undone, have no triangle in common: at least one.
+  /// Precondition: removed_count() > 0.
   std::size_t apart() const;
   /// Undoes that many of the last removals, at most apart(). @return the first of them first, which is undone last.
   std::span<const Removal> restore(std::size_t count = 1);
