@@ -47,7 +47,7 @@ struct Dissection {
 };
 
 /// Splits the unknowns at the median of a coordinate, or at the median distance in edges where that cuts less, again
-/// and again.
+/// and again. Large halves are split in parallel; the result does not depend on the number of threads. O(n log n).
 /// @param where one point per unknown, near for unknowns that are coupled.
 /// @param leaf stop splitting at so many unknowns.
 Dissection dissect(const Elements& elements, std::span<const Vec3> where, Index leaf);
