@@ -12,7 +12,9 @@
 
 #include "exchange_seams.hpp"
 #include "lengthen_seams.hpp"
+#include "move_tips.hpp"
 #include "papilla/core/error.hpp"
+#include "reconnect_seams.hpp"
 #include "seam_state.hpp"
 #include "shorten_seams.hpp"
 #include "straighten_seams.hpp"
@@ -41,8 +43,14 @@ constexpr int k_generous = 1;
 /// States whose seams are shortened, of those with and without seams along features.
 constexpr std::size_t k_starts = 3;
 
-/// What is remembered of maps that break the bound, in triangles of all of them: 8 bytes each.
+/// What is remembered of maps, in triangles of all of them: 8 bytes each; where uv are remembered, too, they count as
+/// so many more.
 constexpr std::size_t k_most_remembered = 20'000'000;
+constexpr std::size_t k_whole = 6;
+
+/// Of the starts, so many are reconnected that are at most this much dearer than the cheapest when shortened.
+constexpr std::size_t k_most_reconnected = 3;
+constexpr double k_promising = 1.15;
 
 /// States of fewer seams whose D - 4 is at most this many times what it may be are brought within the bound, too: the
 /// cheapest of them.
@@ -240,36 +248,58 @@ class BoundKeeper {
     kept_.clear();
   }
 
-  /// What shortening tries, once.
-  SeamState try_seams(const std::vector<std::uint8_t>& seam) {
+  /// A map of seams, made once as long as it is remembered. @param whole also where it is of no use as it breaks the
+  /// bound.
+  SeamState map_seams(const std::vector<std::uint8_t>& seam, bool whole) {
     std::vector<bool> key(seam.begin(), seam.end());
-    if (const auto before = broken_.find(key); before != broken_.end()) return before->second;
-    const double most = bound_.percentile ? k_infinity : (bound_.most + k_bound_slack - 4) * mesh_.area;
-    SeamState state = map(charts_between(mesh_, seam), most);
-    record(state);
-    if ((state.valid && keeps(state)) || (broken_.size() + 1) * state.excess.size() > k_most_remembered) return state;
-    SeamState known = state;
-    known.charted = {}, known.seam = {};
-    broken_.emplace(std::move(key), std::move(known));
+    if (const auto before = known_.find(key); before != known_.end() && (before->second.is_whole || !whole))
+      return before->second.state;
+    const double most = whole || bound_.percentile ? k_infinity : (bound_.most + k_bound_slack - 4) * mesh_.area;
+    Known known{map(charts_between(mesh_, seam), most), most == k_infinity};
+    record(known.state);
+    SeamState state = known.state;
+    if (!known.is_whole) {
+      if (state.valid && keeps(state))
+        known.is_whole = true;
+      else
+        known.state.charted = {}, known.state.seam = {};
+    }
+    remembered_ += known.triangles();
+    if (remembered_ > k_most_remembered) known_.clear(), remembered_ = known.triangles();
+    known_.insert_or_assign(std::move(key), std::move(known));
     return state;
+  }
+
+  SeamState reconnected(SeamState state) {
+    return reconnect_seams(mesh_, std::move(state), bound_, map_, map_fully_, deadline_);
   }
 
   /// The starts with their seams shortened: the cheapest that comes of them.
   SeamState shortest() {
-    const MapSeams map_seams = [this](const std::vector<std::uint8_t>& seam) { return try_seams(seam); };
-    std::optional<SeamState> best;
-    for (SeamState& start : starts_) {
+    for (SeamState& state : starts_) {
       std::vector<double> doubt(mesh_.opposite.size(), 1);
-      SeamState state = std::move(start);
       for (double before = k_infinity; state.cost_mm < k_worthwhile * before;) {
         before = state.cost_mm;
-        state = shorten_seams(mesh_, std::move(state), bound_, map_seams, doubt, deadline_);
-        state = straighten_seams(mesh_, std::move(state), bound_, map_seams, deadline_);
+        state = shorten_seams(mesh_, std::move(state), bound_, map_, doubt, deadline_);
+        state = straighten_seams(mesh_, std::move(state), bound_, map_, deadline_);
       }
+    }
+    std::stable_sort(starts_.begin(), starts_.end(),
+                     [](const auto& a, const auto& b) { return a.cost_mm < b.cost_mm; });
+    const double most = k_promising * starts_.front().cost_mm;
+    std::optional<SeamState> best;
+    for (std::size_t i = 0; i < std::min(k_most_reconnected, starts_.size()); ++i) {
+      if (starts_[i].cost_mm > most) break;
+      SeamState state = reconnected(std::move(starts_[i]));
       if (!best || state.cost_mm < best->cost_mm) best = std::move(state);
     }
-    *best = exchange_seams(mesh_, std::move(*best), bound_, map_seams, map_fully_, deadline_);
-    return straighten_seams(mesh_, std::move(*best), bound_, map_seams, deadline_);
+    for (double before = k_infinity; best->cost_mm < before;) {
+      *best = exchange_seams(mesh_, std::move(*best), bound_, map_, map_fully_, deadline_);
+      before = best->cost_mm;
+      *best = reconnected(std::move(*best));
+      *best = move_tips(mesh_, std::move(*best), bound_, map_, map_fully_, deadline_);
+    }
+    return straighten_seams(mesh_, std::move(*best), bound_, map_, deadline_);
   }
 
   SeamMesh mesh_;
@@ -286,14 +316,17 @@ class BoundKeeper {
     bool keeps_bound = false;
     std::vector<std::uint8_t> seam;
   };
-  using Tries = std::map<double, Try>;                       ///< By seam cost.
-  std::map<bool, Tries> tried_;                              ///< Without seams along features, and with.
-  std::unordered_map<std::vector<bool>, SeamState> broken_;  ///< Maps that are no result, by their seams; without uv.
-  const MapSeams map_fully_ = [this](const std::vector<std::uint8_t>& seam) {
-    SeamState state = map(charts_between(mesh_, seam));
-    record(state);
-    return state;
+  using Tries = std::map<double, Try>;  ///< By seam cost.
+  std::map<bool, Tries> tried_;         ///< Without seams along features, and with.
+  struct Known {
+    SeamState state;        ///< Without uv and seams where it is not whole.
+    bool is_whole = false;  ///< Not left unfinished.
+    std::size_t triangles() const { return (is_whole ? k_whole : 1) * state.excess.size(); }
   };
+  std::unordered_map<std::vector<bool>, Known> known_;  ///< By their seams.
+  std::size_t remembered_ = 0;                          ///< Triangles of known_.
+  const MapSeams map_ = [this](const std::vector<std::uint8_t>& seam) { return map_seams(seam, false); };
+  const MapSeams map_fully_ = [this](const std::vector<std::uint8_t>& seam) { return map_seams(seam, true); };
   BoundedSeams result_;
 };
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "outgoing_edges.hpp"
 #include "seam_paths.hpp"
 
 namespace papilla::param_detail {
@@ -27,26 +28,6 @@ struct Tip {
   Vec2 direction;      ///< In the map, of length 1.
   double release = 0;  ///< Energy per length.
   double most_mm = 0;  ///< That it may grow.
-};
-
-/// Half-edges that leave each vertex, without those of borders.
-class OutgoingEdges {
- public:
-  explicit OutgoingEdges(const SeamMesh& mesh) : first_(mesh.on_border.size() + 1, 0) {
-    const auto each = [&](auto visit) {
-      for (Index h = 0; h < mesh.opposite.size(); ++h)
-        if (mesh.opposite[h] != k_no_triangle) visit(h);
-    };
-    each([&](Index h) { ++first_[mesh.from(h) + 1]; });
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    out_.resize(first_.back());
-    std::vector<Index> next(first_.begin(), first_.end() - 1);
-    each([&](Index h) { out_[next[mesh.from(h)]++] = h; });
-  }
-  std::span<const Index> of(Index v) const { return {out_.data() + first_[v], first_[v + 1] - first_[v]}; }
-
- private:
-  std::vector<Index> first_, out_;
 };
 
 class Lengthener {

@@ -23,7 +23,7 @@ constexpr double k_share = 0.7, k_next_share = 1.5, k_most_share = 2.5;
 
 /// A round is worth a map when it would save this fraction of all seams.
 constexpr double k_least_saving = 1e-3;
-constexpr int k_most_rounds = 30, k_most_failures = 6;
+constexpr int k_most_rounds = 30;
 
 /// How far one round's surprise moves what a place is thought to cost, and how far that may go.
 constexpr double k_least_surprise = 0.5, k_most_surprise = 1e3, k_after_failure = 8;
@@ -49,13 +49,19 @@ using Choices = std::vector<Closing>;
 class Shortener {
  public:
   Shortener(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
-            std::vector<double>& doubt, const Deadline& deadline)
-      : mesh_(mesh), state_(std::move(state)), bound_(bound), map_(map), deadline_(deadline), doubt_(doubt) {}
+            std::vector<double>& doubt, const Deadline& deadline, int most_failures)
+      : mesh_(mesh),
+        state_(std::move(state)),
+        bound_(bound),
+        map_(map),
+        deadline_(deadline),
+        doubt_(doubt),
+        most_failures_(most_failures) {}
 
   SeamState run() {
     double share = k_share;
     std::vector<Closing> refused;
-    for (int round = 0, failures = 0; round < k_most_rounds && failures < k_most_failures && !deadline_.passed();) {
+    for (int round = 0, failures = 0; round < k_most_rounds && failures < most_failures_ && !deadline_.passed();) {
       const std::vector<SeamPath> paths = seam_paths(mesh_, state_);
       const std::vector<Closing> taken = choose(paths, share * energy_left());
       double saved = 0;
@@ -270,13 +276,14 @@ class Shortener {
   const MapSeams& map_;
   const Deadline& deadline_;
   std::vector<double>& doubt_;
+  int most_failures_;
 };
 
 }  // namespace
 
 SeamState shorten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
-                        std::vector<double>& doubt, const Deadline& deadline) {
-  return Shortener(mesh, std::move(state), bound, map, doubt, deadline).run();
+                        std::vector<double>& doubt, const Deadline& deadline, int most_failures) {
+  return Shortener(mesh, std::move(state), bound, map, doubt, deadline, most_failures).run();
 }
 
 }  // namespace papilla::param_detail

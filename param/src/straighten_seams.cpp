@@ -2,17 +2,14 @@
 #include "straighten_seams.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <limits>
-#include <queue>
+#include <array>
 #include <utility>
 
+#include "cheapest_ways.hpp"
 #include "seam_paths.hpp"
 
 namespace papilla::param_detail {
 namespace {
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 /// A new way stays within this part of the old one's length from it.
 constexpr double k_corridor = 0.25;
@@ -29,21 +26,10 @@ struct NewWay {
   double raised = 0;  ///< What the energy rose by around it when it was tried.
 };
 
-/// Shortest ways over the edges of a mesh, within a distance of a path.
+/// Cheapest ways over the edges of a mesh, within a distance of a path.
 class WayFinder {
  public:
-  explicit WayFinder(const SeamMesh& mesh) : mesh_(mesh), first_(mesh.on_border.size() + 1, 0) {
-    for (Index h = 0; h < mesh.opposite.size(); ++h)
-      if (mesh.opposite[h] != k_no_triangle) ++first_[mesh.from(h) + 1];
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    out_.resize(first_.back());
-    std::vector<Index> next(first_.begin(), first_.end() - 1);
-    for (Index h = 0; h < mesh.opposite.size(); ++h)
-      if (mesh.opposite[h] != k_no_triangle) out_[next[mesh.from(h)]++] = h;
-    near_.assign(mesh.on_border.size(), k_infinity);
-    distance_ = near_;
-    way_.resize(near_.size());
-  }
+  explicit WayFinder(const SeamMesh& mesh) : mesh_(mesh), near_(mesh), ways_(mesh) {}
 
   /// The cheapest way between the ends of a path, over vertices that are not blocked and not far from it.
   /// @param blocked per vertex; those of the path itself are free. @return empty when there is none.
@@ -55,55 +41,20 @@ class WayFinder {
     const Index start = on_path.front(), end = on_path.back();
     own_ = on_path;
     std::sort(own_.begin(), own_.end());
-    const auto free = [&](Index v) { return !blocked[v] || std::binary_search(own_.begin(), own_.end(), v); };
-    search(
-        on_path, near_, near_touched_, [&](Index h) { return mesh_.length(h); },
-        [&](Index v, double d) { return free(v) && d <= k_corridor * length; }, k_no_triangle);
-    search(
-        {start}, distance_, distance_touched_, [&](Index h) { return mesh_.cost[h]; },
-        [&](Index v, double) { return near_[v] < k_infinity; }, end);
-    std::vector<Index> way;
-    if (distance_[end] < k_infinity)
-      for (Index v = end; v != start; v = mesh_.from(way_[v])) way.push_back(way_[v]);
-    std::reverse(way.begin(), way.end());
-    clear(near_, near_touched_);
-    clear(distance_, distance_touched_);
-    return way;
+    const auto is_free = [&](Index v) { return !blocked[v] || std::binary_search(own_.begin(), own_.end(), v); };
+    near_.search(
+        on_path, [&](Index h) { return mesh_.length(h); },
+        [&](Index v, double d) { return is_free(v) && d <= k_corridor * length; }, [](Index) { return false; });
+    const Index reached = ways_.search(
+        std::array{start}, [&](Index h) { return mesh_.cost[h]; },
+        [&](Index v, double) { return near_.has_reached(v); }, [&](Index v) { return v == end; });
+    return reached == end ? ways_.way_to(end) : std::vector<Index>{};
   }
 
  private:
-  template <class Cost, class May>
-  void search(const std::vector<Index>& from, std::vector<double>& distance, std::vector<Index>& touched, Cost cost,
-              May may, Index until) {
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (const Index v : from)
-      if (distance[v] > 0) distance[v] = 0, touched.push_back(v), queue.emplace(0, v);
-    while (!queue.empty()) {
-      const auto [there, v] = queue.top();
-      queue.pop();
-      if (there > distance[v]) continue;
-      if (v == until) return;
-      for (Index i = first_[v]; i < first_[v + 1]; ++i) {
-        const Index h = out_[i], to = mesh_.to(h);
-        const double next = there + cost(h);
-        if (!(next < distance[to]) || !may(to, next)) continue;
-        if (distance[to] == k_infinity) touched.push_back(to);
-        distance[to] = next;
-        way_[to] = h;
-        queue.emplace(next, to);
-      }
-    }
-  }
-
-  static void clear(std::vector<double>& distance, std::vector<Index>& touched) {
-    for (const Index v : touched) distance[v] = k_infinity;
-    touched.clear();
-  }
-
   const SeamMesh& mesh_;
-  std::vector<Index> first_, out_, way_, own_, near_touched_, distance_touched_;
-  std::vector<double> near_, distance_;
+  CheapestWays near_, ways_;
+  std::vector<Index> own_;
 };
 
 std::vector<NewWay> new_ways(const SeamMesh& mesh, const SeamState& state) {

@@ -79,12 +79,14 @@ inline constexpr double k_bound_slack = 1e-6;
 /// takes those lengths that save most per energy for the energy that is left; the charts are mapped anew, and what came
 /// out worse than foreseen around a place counts as dearer there from then on. A round that breaks the bound is taken
 /// back and made with half of the energy. 3. Stretches between two places where seams meet or end are laid along the
-/// cheapest way beside the old one while the bound allows it; then rounds begin again. Seams that broke the bound once
-/// are not mapped again.
+/// cheapest way beside the old one while the bound allows it; then rounds begin again. 4. Of the cheapest that come of
+/// it, stretches without which the seams would fall into two pieces are exchanged for the cheapest way between these
+/// (key-path exchange, [Voß 1992]). 5. The cheapest is brought away from the bound and back, its slits end at other
+/// vertices, and 4. begins again while that pays. No seams are mapped twice as long as they are remembered.
 ///
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
-/// seams there are: a local search. Cost: 10 to 100 maps, most often 30. Deterministic when the tools are.
+/// seams there are: a local search. Cost: 20 to 300 maps, most often 100. Deterministic when the tools are.
 /// @throws InvalidInput for a bound out of range or costs that do not fit the mesh; what the tools throw.
 BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
                         Deadline deadline = {}, const ProgressCallback& progress = {});
