@@ -23,6 +23,10 @@ constexpr double k_invisible = 1e-4;
 
 constexpr double k_power = 5;
 
+/// Distortion that everyone sees, a tenth of a length: fewer seams that leave more than that have to be this much
+/// better a bargain.
+constexpr double k_plain = 0.1, k_much_better = 0.25;
+
 SeamTrial judge(const TriangleMesh& mesh, const Flattening& flattening, double seam_cost) {
   SeamTrial trial;
   trial.seam_cost = seam_cost;
@@ -44,15 +48,22 @@ SeamTrial judge(const TriangleMesh& mesh, const Flattening& flattening, double s
 
 SeamChoice choose_seam_cost(const TriangleMesh& mesh, const MapForSeamCost& map) {
   SeamChoice choice;
-  choice.flattening = map(k_usual_seam_cost);
-  choice.trials.push_back(judge(mesh, choice.flattening, k_usual_seam_cost));
-  const double other = choice.trials.front().distortion > k_much ? k_generous : k_sparing;
-  Flattening second = map(other);
-  choice.trials.push_back(judge(mesh, second, other));
-  if (choice.trials[1].price < choice.trials[0].price) {
-    choice.chosen = 1;
-    choice.flattening = std::move(second);
-  }
+  const auto try_cost = [&](double seam_cost) {
+    Flattening flattening = map(seam_cost);
+    const SeamTrial trial = judge(mesh, flattening, seam_cost);
+    const bool is_plain = seam_cost > k_usual_seam_cost && trial.distortion > k_plain;
+    const bool is_better =
+        choice.trials.empty() || trial.price < (is_plain ? k_much_better : 1) * choice.trials[choice.chosen].price;
+    if (is_better) {
+      choice.chosen = choice.trials.size();
+      choice.flattening = std::move(flattening);
+    }
+    choice.trials.push_back(trial);
+    return is_better;
+  };
+  try_cost(k_usual_seam_cost);
+  if (choice.trials.front().distortion > k_much && try_cost(k_generous)) return choice;
+  try_cost(k_sparing);
   return choice;
 }
 

@@ -28,8 +28,8 @@ constexpr double k_share_of_charts = 0.5;  ///< Of the time for a part, for prog
 /// Of maps under a bound, unless another is given: what an iteration still gains there is seam that is not needed.
 constexpr double k_bound_tolerance = 1e-4;
 
-/// Triangles of a part up to which two seam costs are tried: twice the time is no matter there.
-std::size_t most_charted_twice(UnwrapEffort effort) {
+/// Triangles of a part up to which several seam costs are tried: two or three times the time is no matter there.
+std::size_t most_for_seam_choice(UnwrapEffort effort) {
   switch (effort) {
     case UnwrapEffort::fast: return 0;
     case UnwrapEffort::normal: return 50'000;
@@ -225,8 +225,8 @@ Flattening chart_within_bound(const TriangleMesh& mesh, const MethodOptions& o, 
 }
 
 /// As choose_seam_cost() does.
-Flattening chart_twice(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context, PartMemory& memory,
-                       FlattenedPart& part) {
+Flattening chart_at_best_price(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                               PartMemory& memory, FlattenedPart& part) {
   std::vector<std::vector<ChartChoice>> choices;
   SeamChoice choice = choose_seam_cost(mesh, [&](double seam_cost) {
     MethodOptions own = o;
@@ -258,8 +258,8 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
   if (o.charts != ChartSource::automatic)
     return map_or_halve(mesh, given_charts(mesh, o.charts), o, 0, memory, part.choices);
   if (o.max_distortion) return chart_within_bound(mesh, o, context, memory, part);
-  if (o.choose_seam_cost && mesh.triangles.size() <= most_charted_twice(o.effort))
-    return chart_twice(mesh, o, context, memory, part);
+  if (o.choose_seam_cost && mesh.triangles.size() <= most_for_seam_choice(o.effort))
+    return chart_at_best_price(mesh, o, context, memory, part);
   return chart_and_map(mesh, o, context, memory, part);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "papilla/core/error.hpp"
 
@@ -58,6 +59,30 @@ TEST(SeamChoice, MoreSeamsAreTriedWhereMuchIsDistorted) {
   EXPECT_NEAR(choice.trials[0].distortion, distortion(1.1), 1e-12);
   EXPECT_EQ(choice.chosen, 1u);
   EXPECT_EQ(choice.flattening.charts.count, 2u);
+}
+
+TEST(SeamChoice, FewerSeamsAreTriedWhereMoreAreNoBetter) {
+  // Much is distorted, and seams do not help.
+  std::vector<double> tried;
+  const auto map = [&](double cost) { return tried.push_back(cost), map_of_square(1.1, cost < 0.05); };
+  const SeamChoice choice = choose_seam_cost(square(), map);
+  EXPECT_EQ(tried, (std::vector<double>{0.03, 0.01, 0.1}));
+  EXPECT_EQ(choice.chosen, 2u);
+  EXPECT_EQ(choice.flattening.charts.count, 1u);
+}
+
+TEST(SeamChoice, FewerSeamsThatDistortPlainlyHaveToSaveThreeQuarters) {
+  const auto map_to = [](double scale) {
+    return [scale](double cost) { return map_of_square(cost < 0.05 ? 1.05 : scale, cost < 0.05); };
+  };
+  // Without the seam P is divided by (1 + √2)⁵ = 82.
+  const double usual = distortion(1.05) * std::pow(1 + std::sqrt(2.0), 5);
+  ASSERT_GT(distortion(1.2), 0.1);
+  ASSERT_LT(distortion(1.2), 0.24 * usual);
+  EXPECT_EQ(choose_seam_cost(square(), map_to(1.2)).chosen, 2u);
+  ASSERT_GT(distortion(1.5), 0.26 * usual);
+  ASSERT_LT(distortion(1.5), usual);
+  EXPECT_EQ(choose_seam_cost(square(), map_to(1.5)).chosen, 0u);
 }
 
 TEST(SeamChoice, TheUsualOneStaysAtEquality) {
