@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "chunks.hpp"
 #include "sheet_overlap.hpp"
 
 namespace papilla::param_detail {
@@ -82,11 +83,10 @@ std::string topology_failure(const ChartSurface& chart) {
 }
 
 double area_of(const ChartSurface& chart) {
-  double area = 0;
-  for (const Triangle& t : chart.triangles)
-    area +=
-        0.5 * norm(cross(chart.positions[t[1]] - chart.positions[t[0]], chart.positions[t[2]] - chart.positions[t[0]]));
-  return area;
+  return sum_over(chart.triangles.size(), [&](std::size_t t) {
+    const auto [a, b, c] = chart.triangles[t];
+    return 0.5 * norm(cross(chart.positions[b] - chart.positions[a], chart.positions[c] - chart.positions[a]));
+  });
 }
 
 void normalise(const ChartSurface& chart, UpAxis up, bool scale, std::vector<Vec2>& uv) {

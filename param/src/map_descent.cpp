@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "map_descent.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "chunks.hpp"
 #include "dense_cholesky.hpp"
 #include "sparse_cholesky.hpp"
 
 namespace papilla::param_detail {
 namespace {
-
-/// Triangles that one task sums; decides the order of sums, so a constant.
-constexpr std::size_t k_chunk = 4096;
 
 /// Added to the diagonal once per triangle and corner: translations and rotations change no energy. The energy's own
 /// entries are about 1.
@@ -72,30 +68,6 @@ constexpr double k_watched_reach = 1.5;
 
 /// Bisections between the longest step that is accepted and the shortest that is refused.
 constexpr int k_refinements = 2;
-
-template <class Body>
-void for_chunks(std::size_t count, Body body) {
-  const std::size_t chunks = (count + k_chunk - 1) / k_chunk;
-  const auto run = [&](std::size_t chunk) { body(chunk, chunk * k_chunk, std::min(count, (chunk + 1) * k_chunk)); };
-  if (chunks == 1)
-    run(0);
-  else
-    oneapi::tbb::parallel_for(std::size_t{0}, chunks, run);
-}
-
-/// Sums `term(triangle)` in an order that depends on nothing but the number of triangles.
-template <class Term>
-double sum_over(std::size_t count, Term term) {
-  std::vector<double> sums((count + k_chunk - 1) / k_chunk, 0);
-  for_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t t = begin; t < end; ++t) sum += term(t);
-    sums[chunk] = sum;
-  });
-  double sum = 0;
-  for (const double s : sums) sum += s;
-  return sum;
-}
 
 double dot(std::span<const Vec2> a, std::span<const Vec2> b) {
   double sum = 0;
@@ -262,20 +234,21 @@ std::vector<Vec2> energy_gradient(const DescentProblem& problem, std::span<const
 
 double step_to_first_flip(std::span<const Triangle> triangles, std::span<const Vec2> uv,
                           std::span<const Vec2> direction) {
-  double step = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : triangles) {
-    const Vec2 m = uv[t[1]] - uv[t[0]], n = uv[t[2]] - uv[t[0]];
-    const Vec2 dm = direction[t[1]] - direction[t[0]], dn = direction[t[2]] - direction[t[0]];
+  return least_over(triangles.size(), [&](std::size_t i) {
+    double step = std::numeric_limits<double>::infinity();
+    const auto [p0, p1, p2] = triangles[i];
+    const Vec2 m = uv[p1] - uv[p0], n = uv[p2] - uv[p0];
+    const Vec2 dm = direction[p1] - direction[p0], dn = direction[p2] - direction[p0];
     // det(m + s dm, n + s dn) = c + b s + a s²
     const double a = cross(dm, dn), b = cross(m, dn) + cross(dm, n), c = cross(m, n);
     const double root = b * b - 4 * a * c;
-    if (root < 0) continue;
+    if (root < 0) return step;
     // Both roots without cancellation; the smaller positive one counts.
     const double q = -0.5 * (b + std::copysign(std::sqrt(root), b));
     if (a != 0 && q / a > 0) step = std::min(step, q / a);
     if (q != 0 && c / q > 0) step = std::min(step, c / q);
-  }
-  return step;
+    return step;
+  });
 }
 
 namespace {
