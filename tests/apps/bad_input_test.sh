@@ -42,7 +42,8 @@ for file in missing.png empty.png random.png "a folder.stl"; do
   expect 3 "papilla: error: .*${file}" "$papilla" analyze "$file"
   expect 3 "papilla: error: .*${file}" "$papilla" height "$file" -o out.png
 done
-expect 3 'random.png' "$papilla" bake one.obj -m grain.json -o out.glb
+expect 3 'random.png' "$papilla" bake one.obj -m grain.json -o out.glb --report report
+[[ ! -e report ]] || fail "a bake that ended with an error left its report's folder"
 expect 3 'wrong.json: at /materials/g/stiffness' "$papilla" bake one.obj -m wrong.json -o out.glb
 expect 3 'broken.json' "$papilla" plan one.obj -m broken.json
 expect 3 'no/such' "$papilla" synthesize grain --kind leather --size 32 -o no/such/folder.png

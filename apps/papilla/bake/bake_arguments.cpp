@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "exit_code.hpp"
 #include "file_options.hpp"
@@ -16,6 +17,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/named_files.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
+#include "result_folder.hpp"
 #include "scene_output.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
@@ -117,7 +119,8 @@ Json write_bake(const BakeArguments& arguments, const BakeOutputs& options, Bake
                 VerbContext& context) {
   if (!is_gltf_file(options.output)) throw UsageError("--output: '" + options.output + "' must end in .glb or .gltf");
   wanted.for_pictures = wanted.bake.surface_maps = options.pictures;
-  if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
+  std::optional<ResultFolder> report;  // Before the work: a wrong path is known at once.
+  if (!options.report.empty()) report.emplace(options.report);
   const Stopwatch total;
   const Materials rules = arguments.rules();
   PageSceneOptions page;

@@ -9,12 +9,7 @@
 
 namespace papilla::app {
 EvaluationFolder::EvaluationFolder(const std::string& path, const std::string& kind)
-    : stem_(std::filesystem::path(path) / ("evaluate-" + kind)), is_new_(make_folder(path)) {}
-
-EvaluationFolder::~EvaluationFolder() {
-  std::error_code not_empty;
-  if (is_new_ && files_.empty()) std::filesystem::remove(stem_.parent_path(), not_empty);
-}
+    : folder_(path), stem_(folder_.path() / ("evaluate-" + kind)) {}
 
 void EvaluationFolder::write(const std::string& ending, const std::string& content) {
   const std::string file = stem_.string() + ending;

@@ -7,25 +7,22 @@
 
 #include "papilla/pipeline/evaluate/evaluation.hpp"
 #include "papilla/pipeline/evaluate/stability.hpp"
+#include "result_folder.hpp"
 
 namespace papilla::app {
 
-/// The output folder of an evaluation: writes evaluate-KIND plus an ending and collects the names. A folder that it
-/// made is removed again when it stays empty.
+/// The output folder of an evaluation: writes evaluate-KIND plus an ending and collects the names.
 class EvaluationFolder {
  public:
   /// @throws IoError when `path` can't be made a folder.
   EvaluationFolder(const std::string& path, const std::string& kind);
-  ~EvaluationFolder();
-  EvaluationFolder(const EvaluationFolder&) = delete;
-  EvaluationFolder& operator=(const EvaluationFolder&) = delete;
 
   void write(const std::string& ending, const std::string& content);
   const std::vector<std::string>& files() const { return files_; }
 
  private:
+  ResultFolder folder_;
   std::filesystem::path stem_;
-  bool is_new_ = false;
   std::vector<std::string> files_;
 };
 

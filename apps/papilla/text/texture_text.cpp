@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "shown_format.hpp"
+#include "text/hertz.hpp"
 
 namespace papilla::app {
 namespace {
@@ -83,8 +84,8 @@ void add_touch(Lines& lines, const TextureSurvey& survey) {
   std::string shares;
   for (std::size_t i = 0; i < k_touch_receptors.size(); ++i)
     shares += shown_format("{} {:.0f} %, ", k_touch_receptors[i].name, 100 * touch.receptor_shares[i]);
-  lines.add("touch      at {:g} m/s waves of {:.3g} to {:.3g} Hz; of the variance in the bands of {}faster {:.0f} %\n",
-            touch.speed_m_per_s, touch.slowest_hz, touch.fastest_hz, shares, 100 * touch.unfelt_share);
+  lines.add("touch      at {:g} m/s waves of {} to {} Hz; of the variance in the bands of {}faster {:.0f} %\n",
+            touch.speed_m_per_s, hertz(touch.slowest_hz), hertz(touch.fastest_hz), shares, 100 * touch.unfelt_share);
   if (touch.needed_width < survey.width || touch.needed_height < survey.height)
     lines.add("           {} x {} pixels are as fine as any hand feels\n", touch.needed_width, touch.needed_height);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shown_format.hpp"
+#include "text/hertz.hpp"
 
 namespace papilla::app {
 namespace {
@@ -44,8 +45,9 @@ std::string receptors_text(const FeltWaves& felt) {
 
 std::string relief_line(const FeltMaterial& material, const ReliefSaving& saving) {
   const FeltWaves& felt = *material.felt;
-  std::string line = shown_format("  {}: {:.3g} to {:.3g} Hz ({}), {:.3g} times the threshold", material.name,
-                                  felt.slowest_hz, felt.fastest_hz, receptors_text(felt), felt.times_threshold);
+  std::string line =
+      shown_format("  {}: {} to {} Hz ({}), {:.3g} times the threshold", material.name, hertz(felt.slowest_hz),
+                   hertz(felt.fastest_hz), receptors_text(felt), felt.times_threshold);
   if (felt.may_be_left_out) return line + "; nobody feels it: it may be left out\n";
   if (felt.finest_felt_mm > 0) line += shown_format("; waves below {:.3g} mm are not felt", felt.finest_felt_mm);
   if (saving.saves())
