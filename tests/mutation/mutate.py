@@ -230,7 +230,10 @@ class Copy:
     def configure(self):
         if not self.table["configure"]:
             return
-        code, output, _ = self.run(self.filled(self.table["configure"]), self.tree)
+        words = list(self.table["configure"])
+        for program, more in self.table.get("configure_if", {}).items():
+            words += more if shutil.which(program) else []
+        code, output, _ = self.run(self.filled(words), self.tree)
         if code != 0:
             shutil.rmtree(self.build_folder, ignore_errors=True)
             raise Wrong(f"the copy can't be configured:\n{output[-4000:]}")
@@ -352,9 +355,8 @@ class Copy:
             built = set()
             for name, asked, left_out, seconds in self.rounds(programs, fault["file"], names, near_alone):
                 if name not in built and (output := self.build([name])) is not None:
-                    if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
-                        return "does not compile", said[0].strip()
-                    return "killed", "a program that does not start"  # Its cases are listed when it is linked.
+                    said = [line for line in output.splitlines() if COMPILER_SAYS.search(line)] or ["the build failed"]
+                    return "does not compile", said[0].strip()
                 built.add(name)
                 limit = max(self.table["least_seconds"]["computing"], TIMES_UNMUTATED * seconds)
                 if killer := self.test(name, limit, asked, left_out)[0]:

@@ -127,6 +127,15 @@ class MutateTest(unittest.TestCase):
         self.assertIn("area: killed", out)
         self.assertEqual(self.source_of_copy(), SIZE)
 
+    def test_configures_with_what_is_there(self):
+        self.table["configure_if"] = {"sh": ["{build}/with_sh"], "no-such-program": ["{build}/without"]}
+        self.write("tests/mutation/project.json", json.dumps(self.table))
+        self.commit(KILLED)
+        self.mutate()
+        made = self.root / "build" / "mutation" / "tree" / "build" / "toy"
+        self.assertTrue((made / "with_sh").is_dir())
+        self.assertFalse((made / "without").exists())
+
     def test_pattern_chooses_by_id_and_file(self):
         self.commit(KILLED, SURVIVES)
         self.assertIn("1 faults", self.mutate("--jobs", "1", "^area")[1])
