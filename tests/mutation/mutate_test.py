@@ -11,6 +11,8 @@ import time
 import unittest
 from pathlib import Path
 
+from mutate import nearest
+
 MUTATE = Path(__file__).resolve().parent / "mutate.py"
 COMPILER = "c++"
 
@@ -217,6 +219,13 @@ class MutateTest(unittest.TestCase):
         filters, out = self.asked(KILLED, unsteady=True, left_out=["Shape.Corners"])
         self.assertIn("area: killed by size.Size.Area", out)
         self.assertEqual(filters, ["-Shape.Corners", "-Shape.Corners", "Size.Area-Shape.Corners"])
+
+    def test_near_are_the_nearest_of_all_programs(self):
+        sources = {"a/size_test.cpp", "b/size_of_shape_test.cpp", "c/shape_test.cpp"}
+        self.assertEqual(nearest(sources, [], "src/size.cpp"), {"a/size_test.cpp"})
+        self.assertEqual(nearest(sources, [], "src/other_size.cpp"), {"a/size_test.cpp"})
+        self.assertEqual(nearest(sources, [], "src/other.cpp"), set())
+        self.assertEqual(nearest(sources, ["*shape_test"], "src/size.cpp"), {"b/size_of_shape_test.cpp", "c/shape_test.cpp"})
 
     def test_near_ones_alone_leave_the_others_to_be_tried(self):
         filters, out = self.asked(KILLED, SURVIVES, arguments=["--near"])
