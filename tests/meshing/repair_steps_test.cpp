@@ -118,10 +118,10 @@ TEST(Duplicates, SheetOfTwoColoursKeepsBothSides) {
   EXPECT_EQ(result.two_sided, std::set<std::uint32_t>{3});
 }
 
-/// A grid whose vertex in the middle was moved onto the line between two neighbours, so that a cap arises.
+/// A grid whose vertex between two neighbours was moved onto the line between them, so that a cap arises.
 TriangleMesh grid_with_cap() {
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, -1, 0}};
+  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0.6, 0, 0}, {1, 1, 0}, {1, -1, 0}};
   mesh.triangles = {{0, 2, 3}, {2, 1, 3}, {0, 1, 2}, {0, 4, 1}};  // the cap 0-1-2 lies between both sides
   return mesh;
 }
