@@ -246,6 +246,14 @@ TEST(Orient, RandomlyTurnedSphereComesOutward) {
   }
 }
 
+/// The first triangle, from which the others get their sense, is the odd one.
+TEST(Orient, ASolidIsOrientedByTheVolumeThatItHasWhenItsTrianglesAgree) {
+  for (TriangleMesh mesh : {sphere(4), reversed(sphere(4))}) {
+    std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
+    EXPECT_NEAR(signed_volume(orient(mesh).mesh), signed_volume(sphere(4)), 1e-9);
+  }
+}
+
 TEST(Orient, InwardSolidTurnsButCavityStays) {
   EXPECT_NEAR(signed_volume(orient(reversed(cube())).mesh), 1, 1e-12);
   TriangleMesh inner = cube();
