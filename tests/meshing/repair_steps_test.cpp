@@ -64,6 +64,11 @@ TEST(Weld, TheShortestEdgeAtEitherVertexIsWhatItMayMove) {
   sliver.positions = {{0, 0, 0}, {0.01, 0, 0}, {0, 10, 0}};
   sliver.triangles = {{0, 1, 2}};
   EXPECT_EQ(weld(sliver, options).mesh.triangles, sliver.triangles);
+  sliver.positions.push_back({-10, 0, 0});
+  for (const Triangle& beside : {Triangle{0, 2, 3}, Triangle{2, 3, 0}, Triangle{3, 0, 2}}) {
+    sliver.triangles = {{0, 1, 2}, beside};
+    EXPECT_EQ(weld(sliver, options).mesh.triangles, sliver.triangles);
+  }
   TriangleMesh fine, coarse;
   fine.positions = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
   coarse.positions = {{0.3, 0.3, 0}, {10, 0, 0}, {0, 10, 0}};
