@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
-# cmake -DROOT=... -DSOURCE=... -DVERSIONS=... -P CodeVersion.cmake
-# Writes the source with the digest of the sources that results depend on, when it is another one.
+# cmake -DROOT=... -DSOURCE=... -DVERSIONS=... -DKEEP=... -P CodeVersion.cmake
+# Writes the source with the digest of the sources that results depend on, when it is another one; with KEEP, once.
+if(KEEP AND EXISTS ${SOURCE})
+  return()
+endif()
 set(folders core meshing param texture haptic io procedural pipeline cache)
 list(TRANSFORM folders PREPEND ${ROOT}/)
 set(patterns)

@@ -39,6 +39,14 @@ TEST(Inspect, ListsHapticTagsAsJson) {
   EXPECT_EQ(json["asset"]["extras"]["license"], "CC-BY-4.0");
 }
 
+TEST(Inspect, TellsAllSidesOfAPart) {
+  Scene scene = test::rich_scene();
+  for (Vec3& p : scene.parts[0].mesh.positions) p = {p.x, 2 * p.y, 3 * p.z};
+  const Json json = inspect_json(scene, part_statistics(scene), {}, nullptr);
+  EXPECT_EQ(json["parts"][0]["bbox_mm"], Json({20, 40, 60}));
+  EXPECT_EQ(json["parts"][0]["instances"], 2);
+}
+
 TEST(Inspect, ListsHapticTagsAsText) {
   const Scene scene = tagged_scene(), untagged = test::rich_scene();
   const std::string text = inspect_text(scene, part_statistics(scene), {}, {});

@@ -310,6 +310,24 @@ TEST_F(GlbCompression, SecondCoordinatesAreAsExactAsTheirPicturesNeed) {
   }
 }
 
+/// 700 repeats along v and less than one along u: 22 bits hold them in steps of 1/4096.
+TEST_F(GlbCompression, ManyRepeatsAlongVAloneAreKept) {
+  Scene scene = compressible_scene();
+  for (TriangleMesh* mesh : {&scene.parts[0].mesh, &scene.parts[0].levels[0].mesh})
+    for (Vec2& uv : mesh->uv1.values) uv.y *= 700 / 0.9;
+  GlbWriteOptions options;
+  for (const auto& [name, coding] : k_codings) {
+    SCOPED_TRACE(name);
+    options.meshes = coding;
+    const Scene back = written(scene, options);
+    const auto here = corners_of(scene, use_by(scene, "seat")), there = corners_of(back, use_by(back, "seat"));
+    for (const auto& [number, corners] : here) {
+      const auto rounded = turned_like(corners, there.at(number));
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(rounded[k].uv1 - corners[k].uv1), 1.0 / 4096);
+    }
+  }
+}
+
 /// Positions in the part's frame in millimetres and uv by the number of the triangle, as assimp reads a file.
 std::map<long, std::array<std::pair<Vec3, Vec2>, 3>> read_by_assimp(const std::filesystem::path& file,
                                                                     const std::string& mesh_name) {

@@ -181,6 +181,19 @@ TEST_F(GlbWriter, PicturesKeepAllThatPlacesThem) {
   EXPECT_EQ(back.materials[0].normal_texture->transform, scene.materials[0].normal_texture->transform);
 }
 
+/// The tangents of the first primitive of a scene.
+std::vector<std::array<float, 4>> written_tangents(const json& gltf, const std::string& bytes) {
+  const json& accessor =
+      gltf["accessors"][gltf["meshes"][0]["primitives"][0]["attributes"]["TANGENT"].get<std::size_t>()];
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, 4);
+  const std::size_t begin =
+      28 + length + gltf["bufferViews"][accessor["bufferView"].get<std::size_t>()].value("byteOffset", std::size_t{0});
+  std::vector<std::array<float, 4>> tangents(accessor["count"].get<std::size_t>());
+  std::memcpy(tangents.data(), bytes.data() + begin, 16 * tangents.size());
+  return tangents;
+}
+
 /// A quad whose second coordinates run along y and x: a mirror image.
 TEST_F(GlbWriter, TangentsAreThoseOfTheCoordinatesOfTheNormalMap) {
   Scene scene = test::rich_scene();
@@ -195,21 +208,30 @@ TEST_F(GlbWriter, TangentsAreThoseOfTheCoordinatesOfTheNormalMap) {
   for (const int channel : {0, 1}) {
     scene.materials[0].normal_texture->tex_coord = channel;
     const json gltf = document(scene);
-    const json& accessor =
-        gltf["accessors"][gltf["meshes"][0]["primitives"][0]["attributes"]["TANGENT"].get<std::size_t>()];
-    const std::string bytes = content_of(folder_ / "a.glb");
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 12, 4);
-    const std::size_t begin =
-        28 + length +
-        gltf["bufferViews"][accessor["bufferView"].get<std::size_t>()].value("byteOffset", std::size_t{0});
-    ASSERT_EQ(accessor["count"], 4);
-    for (std::size_t i = 0; i < 4; ++i) {
-      std::array<float, 4> tangent{};
-      std::memcpy(tangent.data(), bytes.data() + begin + 16 * i, 16);
+    const auto tangents = written_tangents(gltf, content_of(folder_ / "a.glb"));
+    ASSERT_EQ(tangents.size(), 4U);
+    for (const auto& tangent : tangents)
       EXPECT_EQ(tangent, (channel == 0 ? std::array<float, 4>{1, 0, 0, 1} : std::array<float, 4>{0, 1, 0, -1}));
-    }
   }
+}
+
+/// Two quads whose second coordinates are mirrored at their common edge: that has vertices of either hand.
+TEST_F(GlbWriter, VerticesBetweenMirrorImagesHaveBothHands) {
+  Scene scene = test::rich_scene();
+  scene.up = UpAxis::y;
+  TriangleMesh& mesh = scene.parts[0].mesh;
+  mesh = {};
+  mesh.positions = {{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {0, 10, 0}, {10, 10, 0}, {20, 10, 0}};
+  mesh.triangles = mesh.uv.indices = mesh.uv1.indices = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  mesh.uv.values = {{0, 0}, {0.5, 0}, {1, 0}, {0, 1}, {0.5, 1}, {1, 1}};
+  mesh.uv1.values = {{0, 0}, {1, 0}, {0, 0}, {0, 1}, {1, 1}, {0, 1}};
+  scene.materials[0].normal_texture->tex_coord = 1;
+  const json gltf = document(scene);
+  auto tangents = written_tangents(gltf, content_of(folder_ / "a.glb"));
+  std::sort(tangents.begin(), tangents.end());
+  ASSERT_EQ(tangents.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(tangents[i], (i < 4 ? std::array<float, 4>{-1, 0, 0, -1} : std::array<float, 4>{1, 0, 0, 1})) << i;
 }
 
 /// The cube, all of it of the first material, whose tag holds a map of four bytes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -194,6 +195,33 @@ TEST_F(TagSurvivalTest, WithoutNamesThePlaceTells) {
   });
   EXPECT_EQ(stiffness_by_place(scene), all_as_before());
   EXPECT_EQ(ways(scene), std::set<std::string>{"place"});
+}
+
+/// Leather and oak begin at one place and have as much surface, but do not end at one.
+TEST_F(TagSurvivalTest, APlaceEndsSomewhere) {
+  Scene scene = four_cubes();
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    scene.parts[i].mesh = test::cube(10);
+    for (Vec3& p : scene.parts[i].mesh.positions) {
+      const Vec3 q = p + Vec3{5, 5, 5};
+      p = i == 0 ? Vec3{q.x, 2 * q.y, 3 * q.z} : Vec3{3 * q.x, q.y, 2 * q.z};
+    }
+  }
+  scene.nodes[1].local = scene.nodes[0].local;
+  const Scene read = after(scene, [](ordered_json& gltf) {
+    merge_materials(gltf);
+    drop_material_extras(gltf);
+    drop_names(gltf, "nodes");
+    drop_names(gltf, "meshes");
+  });
+  EXPECT_EQ(ways(read), std::set<std::string>{"place"});
+  for (const Instance& use : instances(read)) {
+    const Part& part = read.parts[use.part];
+    double height = 0;
+    for (const Vec3& p : part.mesh.positions) height = std::max(height, p.y);
+    const auto& haptic = read.materials[part.materials.at(0)].haptic;
+    if (use.world[3] < 50) EXPECT_EQ(haptic.value().stiffness, height > 15 ? 300 : 900);
+  }
 }
 
 TEST_F(TagSurvivalTest, AMergedTagThatNothingMissesIsTakenFromTheOthers) {

@@ -64,6 +64,11 @@ TEST(Weld, TheShortestEdgeAtEitherVertexIsWhatItMayMove) {
   sliver.positions = {{0, 0, 0}, {0.01, 0, 0}, {0, 10, 0}};
   sliver.triangles = {{0, 1, 2}};
   EXPECT_EQ(weld(sliver, options).mesh.triangles, sliver.triangles);
+  sliver.positions.push_back({-10, 0, 0});
+  for (const Triangle& beside : {Triangle{0, 2, 3}, Triangle{2, 3, 0}, Triangle{3, 0, 2}}) {
+    sliver.triangles = {{0, 1, 2}, beside};
+    EXPECT_EQ(weld(sliver, options).mesh.triangles, sliver.triangles);
+  }
   TriangleMesh fine, coarse;
   fine.positions = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
   coarse.positions = {{0.3, 0.3, 0}, {10, 0, 0}, {0, 10, 0}};
@@ -118,10 +123,10 @@ TEST(Duplicates, SheetOfTwoColoursKeepsBothSides) {
   EXPECT_EQ(result.two_sided, std::set<std::uint32_t>{3});
 }
 
-/// A grid whose vertex in the middle was moved onto the line between two neighbours, so that a cap arises.
+/// A grid whose vertex between two neighbours was moved onto the line between them, so that a cap arises.
 TriangleMesh grid_with_cap() {
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, -1, 0}};
+  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0.6, 0, 0}, {1, 1, 0}, {1, -1, 0}};
   mesh.triangles = {{0, 2, 3}, {2, 1, 3}, {0, 1, 2}, {0, 4, 1}};  // the cap 0-1-2 lies between both sides
   return mesh;
 }
@@ -243,6 +248,14 @@ TEST(Orient, RandomlyTurnedSphereComesOutward) {
     const Vec3 n = result.mesh.normals.values[result.mesh.normals.indices[t][0]];
     const bool turned = result.mesh.triangles[t] != mesh.triangles[t];
     EXPECT_NEAR(dot(n, result.mesh.corner(t, 0)), turned ? -1 : 1, 1e-9);
+  }
+}
+
+/// The first triangle, from which the others get their sense, is the odd one.
+TEST(Orient, ASolidIsOrientedByTheVolumeThatItHasWhenItsTrianglesAgree) {
+  for (TriangleMesh mesh : {sphere(4), reversed(sphere(4))}) {
+    std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
+    EXPECT_NEAR(signed_volume(orient(mesh).mesh), signed_volume(sphere(4)), 1e-9);
   }
 }
 

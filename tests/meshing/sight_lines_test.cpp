@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "papilla/core/error.hpp"
@@ -34,6 +35,30 @@ TEST(SightLines, PartsStandWhereTheyArePlacedAndGlassHidesNothing) {
   EXPECT_FALSE(SightLines(std::vector<PlacedMesh>{{&cube, shifted(50, 0, 0)}}).sees(left, right));
   EXPECT_TRUE(SightLines(std::vector<PlacedMesh>{{&cube, shifted(50, 50, 0)}}).sees(left, right));
   EXPECT_TRUE(SightLines(std::vector<PlacedMesh>{{&cube, shifted(50, 0, 0), false}}).sees(left, right));
+}
+
+/// Slivers along the diagonals of space lie in rows of boxes, which must hold all of them: the side of two edges and
+/// that of one, whether they rise or fall.
+TEST(SightLines, SliversHideWhatLiesBehindAllOfThem) {
+  const auto share = [](int i, double step) { return i * step - std::floor(i * step); };
+  for (const double side : {1.0, -1.0})
+    for (const bool turned : {false, true}) {
+      TriangleMesh mesh = test::plane(10, 10, 12, 12);  // As many boxes more as there are triangles.
+      const auto first = static_cast<Index>(mesh.positions.size());
+      const Vec3 a{200, 0, 0}, b{200 + side * 100, 100, 100}, c{200 + side * 50, 50, 54};
+      mesh.positions.insert(mesh.positions.end(), {a, b, c});
+      mesh.triangles.push_back(turned ? Triangle{first, first + 2, first + 1} : Triangle{first, first + 1, first + 2});
+      const SightLines sight(std::vector<PlacedMesh>{{&mesh}});
+      const Vec3 half = 0.5 * normalized(cross(b - a, c - a));
+      int seen = 0;
+      for (int i = 1; i <= 500; ++i) {
+        double u = share(i, 0.7548776662), v = share(i, 0.5698402910);
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        const Vec3 p = a + u * (b - a) + v * (c - a);
+        seen += sight.sees(p + half, p - half) ? 1 : 0;
+      }
+      EXPECT_EQ(seen, 0);
+    }
 }
 
 TEST(SightLines, RefusesMeshesThatAreNone) {

@@ -104,6 +104,16 @@ TEST(Statistics, DegenerateByRepeatedCornerAndByAltitude) {
   EXPECT_LT(s.aspect_max, 10);
 }
 
+/// The altitude on the hypotenuse of 5 is 2.4, with whichever corner a triangle begins.
+TEST(Statistics, AspectIsThatOfTheLongestEdge) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 3, 0}, {0, 0, 4}};
+  for (const Triangle& t : {Triangle{0, 1, 2}, Triangle{1, 2, 0}, Triangle{2, 0, 1}, Triangle{2, 1, 0}}) {
+    mesh.triangles = {t};
+    EXPECT_NEAR(mesh_statistics(mesh).aspect_max, 5 / 2.4, 1e-12);
+  }
+}
+
 TEST(Statistics, ScalesWithTheObject) {
   for (const double scale : {1e-6, 1.0, 1e6}) {
     TriangleMesh mesh = torus(20, 12);

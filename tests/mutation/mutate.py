@@ -44,15 +44,14 @@ def words(file):
     return set(Path(file).stem.removesuffix("_test").split("_"))
 
 
-def nearest(tests, names, file):
-    """Of `tests`, a map of names to their sources and seconds, those of the sources in `names`, else of those whose names
-    share most words with that of `file`."""
+def nearest(sources, names, file):
+    """Of the test sources those in `names`, else those whose names share most words with that of `file`."""
     if names:
-        return [t for t, (source, _) in tests.items() if any(fnmatch.fnmatch(Path(source).stem, name) for name in names)]
+        return {source for source in sources if any(fnmatch.fnmatch(Path(source).stem, name) for name in names)}
     wanted = words(file)
-    shares = {t: len(wanted & words(source)) / len(wanted | words(source)) for t, (source, _) in tests.items()}
+    shares = {source: len(wanted & words(source)) / len(wanted | words(source)) for source in sources}
     most = max(shares.values(), default=0)
-    return [t for t, share in shares.items() if most > 0 and share == most]
+    return {source for source, share in shares.items() if most > 0 and share == most}
 
 
 def processor_seconds(group):
@@ -230,7 +229,10 @@ class Copy:
     def configure(self):
         if not self.table["configure"]:
             return
-        code, output, _ = self.run(self.filled(self.table["configure"]), self.tree)
+        words = list(self.table["configure"])
+        for program, more in self.table.get("configure_if", {}).items():
+            words += more if shutil.which(program) else []
+        code, output, _ = self.run(self.filled(words), self.tree)
         if code != 0:
             shutil.rmtree(self.build_folder, ignore_errors=True)
             raise Wrong(f"the copy can't be configured:\n{output[-4000:]}")
@@ -316,25 +318,29 @@ class Copy:
         self.unmutated = {}
         for name in programs:
             self.run([*self.command(name, [], [], self.folder), "--gtest_list_tests"], self.folder)
-            tests = self.listed(name)
-            near = {t for programs, file, names in wanted if name in programs for t in nearest(tests, names, file)}
-            seconds = 0
-            if near:
-                print(f"  without a fault: {len(near)} of {len(tests)} tests of {name}", flush=True)
-                killer, seconds = self.test(name, asked=sorted(near))
+            self.unmutated[name] = {"seconds": 0, "tests": self.listed(name)}
+        near = [self.near(programs_of, file, names) for programs_of, file, names in wanted]
+        for name in programs:
+            asked = {t for of_fault in near for t in of_fault.get(name, [])}
+            if asked:
+                tests = self.unmutated[name]["tests"]
+                print(f"  without a fault: {len(asked)} of {len(tests)} tests of {name}", flush=True)
+                killer, seconds = self.test(name, asked=sorted(asked))
                 if killer:
                     raise Wrong(f"without a fault fails {killer}")
-                tests |= self.listed(name)
-            self.unmutated[name] = {"seconds": seconds, "tests": tests}
+                self.unmutated[name] = {"seconds": seconds, "tests": tests | self.listed(name)}
+
+    def near(self, programs, file, names):
+        """The tests near a file, of each program that was measured."""
+        tests = {name: self.unmutated[name]["tests"] for name in programs if name in self.unmutated}
+        sources = nearest({source for of_one in tests.values() for source, _ in of_one.values()}, names, file)
+        return {name: [t for t, (source, _) in of_one.items() if source in sources] for name, of_one in tests.items()}
 
     def rounds(self, programs, file, names, near_alone):
         """What is run for a fault, one after the other: program, tests, those left out, and the seconds without a fault."""
         first, rest = [], []
-        if near_alone:
-            programs = [name for name in programs if name in self.unmutated]
-        for name in programs:
+        for name, near in self.near(programs, file, names).items():
             whole, tests = self.unmutated[name]["seconds"], self.unmutated[name]["tests"]
-            near = nearest(tests, names, file)
             if near and (near_alone or len(near) < len(tests)):
                 share = sum(tests[t][1] for t in near) / max(1e-3, sum(t[1] for t in tests.values()))
                 first.append((name, near, [], share * whole))
@@ -352,9 +358,8 @@ class Copy:
             built = set()
             for name, asked, left_out, seconds in self.rounds(programs, fault["file"], names, near_alone):
                 if name not in built and (output := self.build([name])) is not None:
-                    if said := [line for line in output.splitlines() if COMPILER_SAYS.search(line)]:
-                        return "does not compile", said[0].strip()
-                    return "killed", "a program that does not start"  # Its cases are listed when it is linked.
+                    said = [line for line in output.splitlines() if COMPILER_SAYS.search(line)] or ["the build failed"]
+                    return "does not compile", said[0].strip()
                 built.add(name)
                 limit = max(self.table["least_seconds"]["computing"], TIMES_UNMUTATED * seconds)
                 if killer := self.test(name, limit, asked, left_out)[0]:

@@ -11,6 +11,8 @@ import time
 import unittest
 from pathlib import Path
 
+from mutate import nearest
+
 MUTATE = Path(__file__).resolve().parent / "mutate.py"
 COMPILER = "c++"
 
@@ -127,6 +129,15 @@ class MutateTest(unittest.TestCase):
         self.assertIn("area: killed", out)
         self.assertEqual(self.source_of_copy(), SIZE)
 
+    def test_configures_with_what_is_there(self):
+        self.table["configure_if"] = {"sh": ["{build}/with_sh"], "no-such-program": ["{build}/without"]}
+        self.write("tests/mutation/project.json", json.dumps(self.table))
+        self.commit(KILLED)
+        self.mutate()
+        made = self.root / "build" / "mutation" / "tree" / "build" / "toy"
+        self.assertTrue((made / "with_sh").is_dir())
+        self.assertFalse((made / "without").exists())
+
     def test_pattern_chooses_by_id_and_file(self):
         self.commit(KILLED, SURVIVES)
         self.assertIn("1 faults", self.mutate("--jobs", "1", "^area")[1])
@@ -208,6 +219,13 @@ class MutateTest(unittest.TestCase):
         filters, out = self.asked(KILLED, unsteady=True, left_out=["Shape.Corners"])
         self.assertIn("area: killed by size.Size.Area", out)
         self.assertEqual(filters, ["-Shape.Corners", "-Shape.Corners", "Size.Area-Shape.Corners"])
+
+    def test_near_are_the_nearest_of_all_programs(self):
+        sources = {"a/size_test.cpp", "b/size_of_shape_test.cpp", "c/shape_test.cpp"}
+        self.assertEqual(nearest(sources, [], "src/size.cpp"), {"a/size_test.cpp"})
+        self.assertEqual(nearest(sources, [], "src/other_size.cpp"), {"a/size_test.cpp"})
+        self.assertEqual(nearest(sources, [], "src/other.cpp"), set())
+        self.assertEqual(nearest(sources, ["*shape_test"], "src/size.cpp"), {"b/size_of_shape_test.cpp", "c/shape_test.cpp"})
 
     def test_near_ones_alone_leave_the_others_to_be_tried(self):
         filters, out = self.asked(KILLED, SURVIVES, arguments=["--near"])

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
@@ -132,6 +133,28 @@ TEST(EdgeLoop, EdgeOfABoxEndsAtItsCorners) {
   EXPECT_TRUE(edge_loop_near(mesh, bounds.high, around).is_closed);
   EXPECT_THROW(edge_loop_near(test::uv_sphere(10, 32, 64), {0, 0, 0}), InvalidInput);
   EXPECT_THROW(edge_loop_near(mesh, {std::nan(""), 0, 0}), InvalidInput);
+}
+
+/// However the file numbers the corners: those of the mirrored box run the other way.
+TEST(EdgeLoop, EveryEdgeOfABoxRunsToWhereItsCoordinateGrows) {
+  for (const double sign : {1.0, -1.0}) {
+    TriangleMesh mesh = test::cube(4);
+    for (Vec3& p : mesh.positions) p = {sign * 3 * p.x, sign * 2 * p.y, sign * p.z};
+    if (sign < 0)
+      for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    const Bounds3 bounds = bounds_of(mesh);
+    const Vec3 size = bounds.high - bounds.low;
+    for (const Vec3 along : {Vec3{size.x, 0, 0}, Vec3{0, size.y, 0}, Vec3{0, 0, size.z}})
+      for (const int corner : {0, 1, 2, 3}) {
+        const Vec3 first = along.x > 0 ? Vec3{0, size.y, 0} : Vec3{size.x, 0, 0};
+        const Vec3 second = along.z > 0 ? Vec3{0, size.y, 0} : Vec3{0, 0, size.z};
+        const Vec3 low = bounds.low + (corner & 1) * first + (corner >> 1) * second;
+        const EdgeLoop edge = edge_loop_near(mesh, low + 0.5 * along);
+        ASSERT_EQ(edge.points.size(), 2u);
+        EXPECT_LT(norm(edge.points[0] - low), 1e-12);
+        EXPECT_LT(norm(edge.points[1] - low - along), 1e-12);
+      }
+  }
 }
 
 TEST(GrainDirection, FollowsAnEdgeLoop) {

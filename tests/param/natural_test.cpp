@@ -37,6 +37,12 @@ TEST(Natural, ParametersBecomeArcLength) {
     EXPECT_NEAR(r.symmetric_dirichlet.max, 4, 1e-6);
     EXPECT_NEAR(r.uv_area, r.area_mm2, 1e-6 * r.area_mm2);
     EXPECT_EQ(r.mirrored_charts, 0u);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)  // What would be mirrored is turned about v.
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& corners = f.uv.indices[t];
+        const double rise = mesh.corner(t, static_cast<int>((k + 1) % 3)).z - mesh.corner(t, static_cast<int>(k)).z;
+        EXPECT_NEAR(f.uv.values[corners[(k + 1) % 3]].y - f.uv.values[corners[k]].y, rise, 1e-6);
+      }
   }
 }
 

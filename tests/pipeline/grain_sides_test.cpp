@@ -8,6 +8,7 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/texture/shading.hpp"
+#include "papilla/texture/stein_surface.hpp"
 
 namespace papilla {
 namespace {
@@ -126,6 +127,25 @@ TEST_F(GrainSides, RoughnessHasNoWavesLongerThanTheShorterSide) {
   const Grain grain = make_grain(rough);
   ASSERT_TRUE(grain.height.overlay);
   EXPECT_DOUBLE_EQ(grain.height.overlay->longest_mm, 20);
+}
+
+/// Bumps under a Brownian surface, whose roughness is laid over them.
+TEST_F(GrainSides, RoughnessIsScaledAsTheReliefIs) {
+  const HeightGrid fractal = brownian_surface_exact({257, 0.3, 4});
+  const GreyImage cells = bumps();
+  GreyImage image{256, 240, {}};
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 256; ++x)
+      image.pixels.push_back(0.2F + 0.5F * cells.at(x % 128, y % 100) + 0.05F * static_cast<float>(fractal.at(x, y)));
+  MaterialRule whole = rule(image, 25.6, 36);
+  whole.height.relief.tile = false;
+  const Grain once = make_grain(whole);
+  whole.height.scale = 2;
+  const Grain twice = make_grain(whole);
+  ASSERT_TRUE(once.height.overlay && twice.height.overlay);
+  EXPECT_GT(once.height.overlay->rms_mm, 0);
+  EXPECT_DOUBLE_EQ(twice.height.overlay->rms_mm, 2 * once.height.overlay->rms_mm);
+  EXPECT_DOUBLE_EQ(twice.height.overlay->rms_slope, 2 * once.height.overlay->rms_slope);
 }
 
 }  // namespace

@@ -141,6 +141,27 @@ TEST(Unwrap, GrainRunsAlongThePart) {
     }
 }
 
+/// A sheet over x and z that faces y: a wall where z is up, a floor where y is, on which grain runs to -z.
+TEST(Unwrap, GrainStandsUprightByTheAxesOfTheScene) {
+  for (const UpAxis up : {UpAxis::z, UpAxis::y}) {
+    TriangleMesh sheet = test::plane(30, 20, 2, 1);
+    for (Vec3& p : sheet.positions) p = {p.x, 0, -p.y};
+    sheet.normals = {};
+    Scene scene = scene_of(sheet);
+    scene.up = up;
+    UnwrapOptions options = options_of(UnwrapMethod::triplanar);
+    options.layout = UvLayout::tile;
+    const TriangleMesh mesh = unwrap_scene(scene, options).scene.parts[0].mesh;
+    ASSERT_EQ(mesh.uv.indices.size(), 4U);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 in_space = mesh.corner(t, static_cast<int>((k + 1) % 3)) - mesh.corner(t, static_cast<int>(k));
+        const Vec2 edge = mesh.uv.values[mesh.uv.indices[t][(k + 1) % 3]] - mesh.uv.values[mesh.uv.indices[t][k]];
+        EXPECT_NEAR(edge.y, up == UpAxis::z ? in_space.z : -in_space.z, 1e-9);
+      }
+  }
+}
+
 TEST(Unwrap, EveryPartHasItsOwnGrain) {
   const std::vector<PlacedGrain> grains{{GrainSource::direction, {1, 0, 0}}, {GrainSource::longest, {}, "bar*"}};
   EXPECT_EQ(grain_of(grains, "bar 2").source, GrainSource::longest);  // by name goes before for all

@@ -39,6 +39,7 @@ TEST(LinearRegression, OfPairsIsTheTTest) {
   const double reach = student_t_quantile(0.975, 3) * std::sqrt(squares / 3 / 4);
   const Regression r = linear_regression(data);
   EXPECT_EQ(r.clusters, 4U);
+  EXPECT_NEAR(r.residual, std::sqrt(squares / 2 / 3), 1e-12);  // 8 answers less 4 constants and an effect.
   EXPECT_NEAR(r.coefficients[0].value, mean, 1e-12);
   EXPECT_NEAR(*r.coefficients[0].low, mean - reach, 1e-9);
   EXPECT_NEAR(*r.coefficients[0].high, mean + reach, 1e-9);
@@ -130,6 +131,27 @@ TEST(LogisticRegression, TakesChanceAway) {
       data.clusters.push_back(static_cast<std::size_t>(i % 5));
     }
   EXPECT_NEAR(logistic_regression(data, {.guess = 0.5}).coefficients[0].value, 2 * std::log(4.0), 1e-3);
+}
+
+// Of one participant at two levels: log odds of F = (p - γ)/(1 - γ - λ), whose variance is that of p over the square of
+// dp/d(log odds) = (1 - γ - λ) F (1 - F).
+TEST(LogisticRegression, KnowsWhatChanceAndLapsesLeaveUnknown) {
+  const auto fit_of = [](int few, int many, const RegressionOptions& options) {
+    RegressionData data{1, {}, {}, {}};
+    for (const int hits : {few, many})
+      for (int i = 0; i < 100; ++i) {
+        data.predictors.push_back(hits == few ? 0 : 1);
+        data.answers.push_back(i < hits ? 1 : 0);
+        data.clusters.push_back(0);
+      }
+    return logistic_regression(data, options).coefficients[0];
+  };
+  const Estimate guessed = fit_of(60, 90, {.guess = 0.5});  // F = 0.2 and 0.8.
+  const double reach = 1.959964 * std::sqrt((0.6 * 0.4 + 0.9 * 0.1) / 100) / (0.5 * 0.2 * 0.8);
+  EXPECT_NEAR(guessed.value, 2 * std::log(4.0), 1e-3);
+  EXPECT_NEAR(*guessed.high - guessed.value, reach, 1e-2);
+  EXPECT_NEAR(guessed.value - *guessed.low, reach, 1e-2);
+  EXPECT_NEAR(fit_of(58, 82, {.guess = 0.5, .lapse = 0.1}).value, 2 * std::log(4.0), 1e-3);
 }
 
 TEST(LogisticRegression, SaysWhereNoFiniteCoefficientFitsBest) {

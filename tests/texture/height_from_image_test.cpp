@@ -70,6 +70,7 @@ TEST(HeightFromImage, DisorderedPicturesAreReadAsHeights) {
   const HeightResult result = height_from_image(image, {.pitch_mm = 0.1, .depth_mm = 2});
   EXPECT_EQ(result.method, HeightMethod::intensity);
   EXPECT_FALSE(result.map.periodic);
+  EXPECT_DOUBLE_EQ(result.shortest_wavelength_mm, 0.2);  // Nothing was cut: two pixels.
   for (std::size_t i = 0; i < image.pixels.size(); ++i) ASSERT_NEAR(result.map.mm[i], 2 * image.pixels[i], 1e-6);
 }
 
@@ -98,6 +99,32 @@ TEST(HeightFromImage, RoughnessIsKeptApartFromTheRelief) {
   EXPECT_EQ(residual.roughness, HeightRoughness::residual);
 }
 
+/// Waves of 16 pixels under a Brownian surface. Two heights 16 pixels apart differ by their roughness alone. With H =
+/// 0.7 these differences have a correlation of 0.84 from pixel to pixel where amplitudes fall as 1 / frequency^(1 + H)
+/// from 20 pixels on, and one of 0.36 where they fall as 1 / frequency^H.
+TEST(HeightFromImage, SynthesizedRoughnessFallsAsThatOfTheResidual) {
+  const GreyImage fractal = to_grey_image(brownian_surface_exact({192, 0.7, 3}));
+  const double k = 2 * std::numbers::pi / 16;
+  const GreyImage image = test::make_image(192, 192, [&](int x, int y) {
+    return 0.4 + 0.15 * (std::cos(k * x) + std::cos(k * y)) + 0.2 * static_cast<double>(fractal.at(x, y));
+  });
+  const HeightResult result = height_from_image(
+      image,
+      {.method = HeightMethod::intensity, .pitch_mm = 0.05, .depth_mm = 2, .roughness = HeightRoughness::synthesized});
+  ASSERT_EQ(result.roughness, HeightRoughness::synthesized);
+  const auto difference = [&](int x, int y) {
+    return static_cast<double>(result.map.at(x + 16, y)) - static_cast<double>(result.map.at(x, y));
+  };
+  double product = 0, square = 0;
+  for (int y = 0; y < 192; ++y)
+    for (int x = 0; x < 175; ++x) {
+      product += difference(x, y) * difference(x + 1, y);
+      square += difference(x, y) * difference(x, y);
+    }
+  EXPECT_GT(product / square, 0.65);
+  EXPECT_LT(product / square, 0.95);
+}
+
 TEST(HeightFromImage, CutLeavesNoShorterWave) {
   // Waves of 24 and of 4 pixels; the cut at 6 pixels leaves the first alone.
   const double k = 2 * 3.141592653589793;
@@ -123,6 +150,19 @@ TEST(HeightFromImage, WhatRunsAcrossTheLightIsGuessed) {
   EXPECT_LT(height_from_image(image, options).guessed_share, 0.01);
   options.light = Vec3{0.05, 1, 1};
   EXPECT_GT(height_from_image(image, options).guessed_share, 0.9);
+}
+
+/// Under a light at 45 degrees a matt surface may be 1.41 times as bright as level ground: 1.68 times is a
+/// highlight, 1.28 is none. Both have a sixteenth of the picture, and so has what lies in shadow.
+TEST(HeightFromImage, HighlightsAreBrighterThanWhatFacesTheLight) {
+  const GreyImage image = test::make_image(96, 32, [](int x, int) {
+    return x % 16 == 0 ? 0.65 : x % 16 == 8 ? 0.85 : x % 16 == 4 ? 0.1 : 0.5;
+  });
+  const HeightResult result = height_from_image(
+      image,
+      {.method = HeightMethod::pentland, .light = Vec3{1, 0, 1}, .periodic = true, .transfer = Transfer::linear});
+  EXPECT_NEAR(result.highlights_fraction, 1.0 / 16, 1e-9);
+  EXPECT_NEAR(result.shadows_fraction, 1.0 / 16, 1e-9);
 }
 
 /// A lit lattice of bumps, turned: no whole number of cells fits the picture.

@@ -29,6 +29,18 @@ TEST(LightDirection, AzimuthOfAnIsotropicRelief) {
   }
 }
 
+TEST(LightDirection, AzimuthInAnOblongPicture) {
+  const HeightGrid surface = spectral_surface({256, 0.8, 6, 60, 4});
+  const HeightMap relief = test::make_relief(256, 112, 1, [&](int x, int y) { return 0.8 * surface.at(x, y); });
+  for (int k = 1; k < 8; ++k) {
+    const double azimuth = -std::numbers::pi * k / 8;
+    const LightEstimate estimate =
+        estimate_light(render_lambert(relief, {0.7 * std::cos(azimuth), 0.7 * std::sin(azimuth), 0.7}));
+    EXPECT_NEAR(std::atan2(estimate.direction.y, estimate.direction.x), azimuth, 0.2) << k;
+    EXPECT_NEAR(estimate.coherence, 0.5, 0.15) << k;
+  }
+}
+
 double off_axis_deg(const LightEstimate& estimate, double azimuth) {
   const double off = std::atan2(estimate.direction.y, estimate.direction.x) - azimuth;
   return std::abs(std::remainder(off, std::numbers::pi)) * 180 / std::numbers::pi;

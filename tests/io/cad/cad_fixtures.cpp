@@ -12,6 +12,7 @@
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -95,10 +96,13 @@ void CadFile::material(const TDF_Label& label, const std::string& name, double d
                     text("POSITIVE_RATIO_MEASURE"));
 }
 
-void CadFile::dimension(const TDF_Label& part, const TopoDS_Shape& face,
+void CadFile::dimension(const TDF_Label& part, const TopoDS_Shape& face, const TopoDS_Shape& other,
                         const std::function<void(XCAFDimTolObjects_DimensionObject&)>& fill) {
   const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
-  const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
+  const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document_->Main());
+  TDF_LabelSequence from, to;
+  from.Append(shapes->AddSubShape(part, face));
+  if (!other.IsNull()) to.Append(shapes->AddSubShape(part, other));
   const TDF_Label label = tool->AddDimension();
   Handle(XCAFDoc_Dimension) attribute;
   label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute);
@@ -106,11 +110,11 @@ void CadFile::dimension(const TDF_Label& part, const TopoDS_Shape& face,
   object->SetType(XCAFDimTolObjects_DimensionType_Size_Diameter);
   fill(*object);
   attribute->SetObject(object);
-  tool->SetDimension(on, label);
+  tool->SetDimension(from, to, label);
 }
 
 void CadFile::diameter(const TDF_Label& part, const TopoDS_Shape& face, double value, double upper, double lower) {
-  dimension(part, face, [&](XCAFDimTolObjects_DimensionObject& object) {
+  dimension(part, face, {}, [&](XCAFDimTolObjects_DimensionObject& object) {
     object.SetValue(value);
     object.SetUpperTolValue(upper);
     object.SetLowerTolValue(lower);
@@ -118,9 +122,16 @@ void CadFile::diameter(const TDF_Label& part, const TopoDS_Shape& face, double v
 }
 
 void CadFile::range(const TDF_Label& part, const TopoDS_Shape& face, double low, double high) {
-  dimension(part, face, [&](XCAFDimTolObjects_DimensionObject& object) {
+  dimension(part, face, {}, [&](XCAFDimTolObjects_DimensionObject& object) {
     object.SetUpperBound(high);
     object.SetLowerBound(low);
+  });
+}
+
+void CadFile::distance(const TDF_Label& part, const TopoDS_Shape& face, const TopoDS_Shape& other, double value) {
+  dimension(part, face, other, [&](XCAFDimTolObjects_DimensionObject& object) {
+    object.SetType(XCAFDimTolObjects_DimensionType_Location_LinearDistance);
+    object.SetValue(value);
   });
 }
 

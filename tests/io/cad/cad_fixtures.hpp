@@ -34,6 +34,8 @@ class CadFile {
   void flatness(const TDF_Label& part, const TopoDS_Shape& face, double value);
   /// A diameter between two values.
   void range(const TDF_Label& part, const TopoDS_Shape& face, double low, double high);
+  /// The distance between two faces of the part.
+  void distance(const TDF_Label& part, const TopoDS_Shape& face, const TopoDS_Shape& other, double value);
   void validation(const TDF_Label& part, double area, double volume, const gp_Pnt& centroid);
   void write_step(const std::filesystem::path& path, const std::string& schema = "AP214IS",
                   const std::string& unit = "MM");
@@ -42,7 +44,7 @@ class CadFile {
   void write_step_with_part_files(const std::filesystem::path& path);
 
  private:
-  void dimension(const TDF_Label& part, const TopoDS_Shape& face,
+  void dimension(const TDF_Label& part, const TopoDS_Shape& face, const TopoDS_Shape& other,
                  const std::function<void(XCAFDimTolObjects_DimensionObject&)>& fill);
 
   Handle(TDocStd_Document) document_;

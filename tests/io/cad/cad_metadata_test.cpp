@@ -152,6 +152,17 @@ TEST_F(CadMetadata, InstanceColourMakesAPartOfItsOwn) {
   EXPECT_EQ(colour(1), "#FF0000");
 }
 
+TEST_F(CadMetadata, PartsWithoutAColourTakeThatOfTheirAssembly) {
+  CadFile file;
+  const TDF_Label panel = file.add("panel", box());
+  const TDF_Label door = file.add_assembly("door"), car = file.add_assembly("car");
+  file.place(door, panel, gp_Trsf(), "panel");
+  file.colour(file.place(car, door, shifted(50), "red"), 0xFF0000);
+  const Scene scene = write_and_read(file);
+  ASSERT_EQ(scene.parts.size(), 1u);
+  EXPECT_EQ(scene.materials.at(scene.parts[0].materials.at(0)).name, "#FF0000");
+}
+
 TEST_F(CadMetadata, SolidsOfOneProductAreParts) {
   TopoDS_Compound two;
   BRep_Builder builder;
@@ -245,6 +256,17 @@ TEST_F(CadMetadata, RangesKeepBothTheirEnds) {
   ASSERT_EQ(pmi.size(), 1u);
   EXPECT_NEAR(pmi[0].at("lower_bound").get<double>(), 9.5, 1e-9);
   EXPECT_NEAR(pmi[0].at("upper_bound").get<double>(), 10.25, 1e-9);
+}
+
+TEST_F(CadMetadata, ADistanceIsOfBothItsFaces) {
+  const TopoDS_Shape shape = box();
+  CadFile file;
+  file.distance(file.add("box", shape), face_of(shape, 0), face_of(shape, 1), 10);
+  const Scene scene = write_and_read(file, "AP242DIS");
+  const json pmi = json::parse(scene.parts.at(0).extras_json).at("pmi");
+  ASSERT_EQ(pmi.size(), 1u);
+  EXPECT_NEAR(pmi[0].at("value").get<double>(), 10, 1e-9);
+  EXPECT_EQ(pmi[0].at("faces"), json({0, 1}));
 }
 
 TEST_F(CadMetadata, DrawnAnnotationsKeepTheirNames) {

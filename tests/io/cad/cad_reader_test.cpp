@@ -258,6 +258,9 @@ TEST_F(CadReader, RepeatedShapesInABrepAreInstances) {
   const Scene scene = read_as_brep(two);
   EXPECT_EQ(scene.parts.size(), 1u);
   EXPECT_EQ(scene.nodes.at(scene.roots.at(0)).children.size(), 2u);
+  ASSERT_EQ(instances(scene).size(), 2u);
+  EXPECT_EQ(instances(scene)[0].world[3], 0);
+  EXPECT_EQ(instances(scene)[1].world[3], 50);
 }
 
 bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
