@@ -248,7 +248,8 @@ class BoundKeeper {
     kept_.clear();
   }
 
-  /// A map of seams, made once as long as it is remembered. @param whole also where it is of no use as it breaks the
+  /// A map of seams, made once as long as it is remembered, and again where it was left unfinished and is wanted whole.
+  /// @param whole also where it is of no use as it breaks the
   /// bound.
   SeamState map_seams(const std::vector<std::uint8_t>& seam, bool whole) {
     std::vector<bool> key(seam.begin(), seam.end());
@@ -264,6 +265,7 @@ class BoundKeeper {
       else
         known.state.charted = {}, known.state.seam = {};
     }
+    if (const auto before = known_.find(key); before != known_.end()) remembered_ -= before->second.triangles();
     remembered_ += known.triangles();
     if (remembered_ > k_most_remembered) known_.clear(), remembered_ = known.triangles();
     known_.insert_or_assign(std::move(key), std::move(known));

@@ -24,9 +24,6 @@ constexpr std::size_t k_most_of_target = 200;
 /// Vertices that one thread judges at a time.
 constexpr std::size_t k_together = 256;
 
-/// Vertices between one that is removed and one whose memory is asked for.
-constexpr std::ptrdiff_t k_ahead = 16;
-
 /// In one pass, only the cheapest part of the vertices is removed.
 constexpr double k_pass_share = 0.8;
 
@@ -113,7 +110,6 @@ class DiskHierarchy::Coarsener {
     Ring ring;
     std::size_t left = vertices_.size();
     for (auto c = candidates.begin(); c != used && left > enough; ++c) {
-      if (used - c > k_ahead) fetch(c[k_ahead].vertex, c[k_ahead / 2].vertex);
       // An unlocked vertex still has the ring it was judged by; its target's neighbours may have changed.
       if (locked_[c->vertex] == pass_ || !find_ring(c->vertex, ring) || !may_merge(ring, place_of(ring, c->target)))
         continue;
@@ -148,16 +144,6 @@ class DiskHierarchy::Coarsener {
         tail_[v] = c, link = &next_[c];
       else
         *link = next_[c];
-    }
-  }
-
-  /// Asks for the memory of the corners of a vertex, and for that of the triangle of the first corner of another one.
-  void fetch(Index corners_of, Index triangle_of) const {
-    __builtin_prefetch(&head_[corners_of]);
-    if (const Index c = head_[triangle_of]; c != k_none) {
-      __builtin_prefetch(&h_.triangles_[c / 3]);
-      __builtin_prefetch(&next_[c]);
-      __builtin_prefetch(&h_.alive_[c / 3]);
     }
   }
 

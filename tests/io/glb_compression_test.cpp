@@ -209,6 +209,21 @@ class GlbCompression : public ::testing::Test {
     return read_gltf(folder_ / "a.glb", {.cad_uv = true});
   }
 
+  /// Writes the scene in every coding: the second coordinates of its seat come back to within a distance.
+  void expect_second_uv_within(const Scene& scene, double most) const {
+    GlbWriteOptions options;
+    for (const auto& [name, coding] : k_codings) {
+      SCOPED_TRACE(name);
+      options.meshes = coding;
+      const Scene back = written(scene, options);
+      const auto here = corners_of(scene, use_by(scene, "seat")), there = corners_of(back, use_by(back, "seat"));
+      for (const auto& [number, corners] : here) {
+        const auto rounded = turned_like(corners, there.at(number));
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(rounded[k].uv1 - corners[k].uv1), most);
+      }
+    }
+  }
+
   const TemporaryFolder folder_;
 };
 
@@ -297,17 +312,7 @@ TEST_F(GlbCompression, SecondCoordinatesAreAsExactAsTheirPicturesNeed) {
       mesh->uv.values[i] = mesh->uv1.values[i];
       mesh->uv1.values[i] = {0.1 * wide.y, wide.x};
     }
-  GlbWriteOptions options;
-  for (const auto& [name, coding] : k_codings) {
-    SCOPED_TRACE(name);
-    options.meshes = coding;
-    const Scene back = written(scene, options);
-    const auto here = corners_of(scene, use_by(scene, "seat")), there = corners_of(back, use_by(back, "seat"));
-    for (const auto& [number, corners] : here) {
-      const auto rounded = turned_like(corners, there.at(number));
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(rounded[k].uv1 - corners[k].uv1) * k_texels, 0.1);
-    }
-  }
+  expect_second_uv_within(scene, 0.1 / k_texels);
 }
 
 /// 700 repeats along v and less than one along u: 22 bits hold them in steps of 1/4096.
@@ -315,17 +320,7 @@ TEST_F(GlbCompression, ManyRepeatsAlongVAloneAreKept) {
   Scene scene = compressible_scene();
   for (TriangleMesh* mesh : {&scene.parts[0].mesh, &scene.parts[0].levels[0].mesh})
     for (Vec2& uv : mesh->uv1.values) uv.y *= 700 / 0.9;
-  GlbWriteOptions options;
-  for (const auto& [name, coding] : k_codings) {
-    SCOPED_TRACE(name);
-    options.meshes = coding;
-    const Scene back = written(scene, options);
-    const auto here = corners_of(scene, use_by(scene, "seat")), there = corners_of(back, use_by(back, "seat"));
-    for (const auto& [number, corners] : here) {
-      const auto rounded = turned_like(corners, there.at(number));
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(rounded[k].uv1 - corners[k].uv1), 1.0 / 4096);
-    }
-  }
+  expect_second_uv_within(scene, 1.0 / 4096);
 }
 
 /// Positions in the part's frame in millimetres and uv by the number of the triangle, as assimp reads a file.

@@ -82,7 +82,8 @@ inline constexpr double k_bound_slack = 1e-6;
 /// cheapest way beside the old one while the bound allows it; then rounds begin again. 4. Of the cheapest that come of
 /// it, stretches without which the seams would fall into two pieces are exchanged for the cheapest way between these
 /// (key-path exchange, [Voß 1992]). 5. The cheapest is brought away from the bound and back, its slits end at other
-/// vertices, and 4. begins again while that pays. No seams are mapped twice as long as they are remembered.
+/// vertices, and 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but those
+/// whose map was left unfinished and is wanted whole.
 ///
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
