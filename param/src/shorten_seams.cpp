@@ -256,7 +256,9 @@ class Shortener {
       const SeamPath& path = paths[taken[c].path];
       const double foreseen = std::max(taken[c].energy, 1e-12 * mesh_.area);
       double factor = std::clamp(change[c] / foreseen, k_least_surprise, k_most_surprise);
-      if (!next.valid) factor = next.without_map[path.halfedges[taken[c].first] / 3] ? k_after_failure : 1;
+      // Where no chart is known to have no map, triangles are turned over: their energy tells.
+      if (!next.valid && !next.without_map.empty())
+        factor = next.without_map[path.halfedges[taken[c].first] / 3] ? k_after_failure : 1;
       distrust(path, factor);
     }
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -180,6 +181,25 @@ TEST_F(Sheet, WhatBreaksTheBoundIsLeft) {
   const MapSeams map_seams = map_that_needs(seam);
   const SeamState result = reconnect_seams(seams_, map_seams(seam), {}, map_seams, map_seams, {});
   EXPECT_EQ(result.seam, seam);
+}
+
+TEST_F(Sheet, MapsThatTurnTrianglesOverAreRefused) {
+  // They have a map by the method, so that no chart is said to be without one.
+  std::vector<std::uint8_t> seam = borders();
+  cut(seam, at(3, 0), at(3, 5));
+  const MapSeams map_seams = map_that_needs(borders());
+  const SeamState start = map_seams(seam);
+  ASSERT_TRUE(start.valid);
+  const MapSeams turned = [&](const std::vector<std::uint8_t>& tried) {
+    SeamState state = map_seams(tried);
+    state.valid = false;
+    state.distortion = std::numeric_limits<double>::infinity();
+    state.excess[0] = 1e12;
+    return state;
+  };
+  std::vector<double> doubt(seam.size(), 1);
+  EXPECT_EQ(shorten_seams(seams_, start, {}, turned, doubt, {}).seam, seam);
+  EXPECT_EQ(reconnect_seams(seams_, start, {}, turned, turned, {}).seam, seam);
 }
 
 TEST_F(Sheet, ATipMovesToTheCheaperOfTwoVertices) {
