@@ -171,7 +171,19 @@ TEST_F(BakeTest, PicturesOnTheSecondCoordinatesStay) {
   EXPECT_EQ(mesh.uv1.values.at(mesh.uv1.indices[0][2]), (Vec2{1, 1}));
 }
 
-/// Two oblong sheets of the same corners, cut along either diagonal.
+/// Whether the uv of a mesh have the lengths of its edges, in repeats of 40 x 20 mm.
+void expect_lengths(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, const std::string& name) {
+  ASSERT_EQ(uv.indices.size(), mesh.triangles.size()) << name;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3;
+      const Vec3 edge = mesh.corner(t, static_cast<int>(l)) - mesh.corner(t, static_cast<int>(k));
+      const Vec2 step = uv.values[uv.indices[t][l]] - uv.values[uv.indices[t][k]];
+      EXPECT_NEAR(std::hypot(40 * step.x, 20 * step.y), norm(edge), 1e-6) << name;
+    }
+}
+
+/// Oblong sheets of the same corners, cut along either diagonal. In place equal ones take each other's uv.
 TEST_F(BakeTest, PartsCutIntoOtherTrianglesHaveTheirOwnUv) {
   std::vector<Part> parts = {square("dash"), square("dash_other"), square("dash_again")};
   parts[1].mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
@@ -181,14 +193,14 @@ TEST_F(BakeTest, PartsCutIntoOtherTrianglesHaveTheirOwnUv) {
   options.plan.sides.keep = options.plan.keep_copies = true;
   const BakeResult result = bake_scene(scene_of(parts), rules_, options);
   ASSERT_EQ(result.surfaces.size(), 3U);
-  for (const Part& part : result.scene.parts)
-    for (std::size_t t = 0; t < 2; ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 edge = part.mesh.corner(t, static_cast<int>((k + 1) % 3)) - part.mesh.corner(t, static_cast<int>(k));
-        const auto& corners = part.mesh.uv.indices.at(t);
-        const Vec2 step = part.mesh.uv.values[corners[(k + 1) % 3]] - part.mesh.uv.values[corners[k]];
-        EXPECT_NEAR(std::hypot(40 * step.x, 20 * step.y), norm(edge), 1e-6) << part.name;
-      }
+  for (const Part& part : result.scene.parts) expect_lengths(part.mesh, part.mesh.uv, part.name);
+  options.plan.keep_copies = false;
+  options.plan.in_place = true;
+  const BakeResult in_place = bake_scene(scene_of(parts), rules_, options);
+  ASSERT_EQ(in_place.surfaces.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) expect_lengths(parts[i].mesh, in_place.surfaces[i].uv, parts[i].name);
+  EXPECT_EQ(in_place.surfaces[1].same_as, "");
+  EXPECT_EQ(in_place.surfaces[2].same_as, in_place.surfaces[0].label);
 }
 
 /// Three of the six spheres of 10.7 pixels fill a tile of 32 pixels, half of the picture.

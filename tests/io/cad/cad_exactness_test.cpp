@@ -153,6 +153,21 @@ TEST_F(CadExactness, PolesOfASphereHaveTheirNormalAndParameters) {
   }
 }
 
+TEST_F(CadExactness, AReversedFaceHasItsParametersAndNormalsAtTheirCorners) {
+  const TriangleMesh mesh = read(face_of(BRepPrimAPI_MakeCylinder(5, 20).Shape(), 0).Reversed(), options(0.1, 20));
+  ASSERT_GT(mesh.triangles.size(), 10u);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = mesh.corner(t, int(k));
+      const Vec2 uv = mesh.cad_uv.values[mesh.cad_uv.indices[t][k]];
+      EXPECT_LT(norm(p - Vec3{5 * std::cos(uv.x), 5 * std::sin(uv.x), uv.y}), 1e-9);
+      EXPECT_LT(norm(mesh.normals.values[mesh.normals.indices[t][k]] + 0.2 * Vec3{p.x, p.y, 0}), 1e-9);
+    }
+    const Vec3 a = mesh.corner(t, 0), across = cross(mesh.corner(t, 1) - a, mesh.corner(t, 2) - a);
+    EXPECT_LT(dot(across, Vec3{a.x, a.y, 0}), 0);  // Seen from the axis.
+  }
+}
+
 /// z over the square of side 60 with x = u and y = v exactly, since the control points stand at the knots' means.
 Handle(Geom_BSplineSurface) waves() {
   constexpr int k_poles = 13, k_degree = 3, k_spans = k_poles - k_degree;

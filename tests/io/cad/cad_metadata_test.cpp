@@ -14,6 +14,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -71,8 +72,8 @@ TEST_F(CadMetadata, AssemblyKeepsNamesInstancesPlacesAndIds) {
   // The library's writer forgets the name of each assembly's first component, and counts on from file to file.
   std::string text = read_text(folder_ / "file.step");
   std::map<int, std::string> nameless;
-  const std::regex use("NEXT_ASSEMBLY_USAGE_OCCURRENCE\\('([0-9]+)',''");
-  for (std::sregex_iterator i(text.begin(), text.end(), use), end; i != end; ++i)
+  const std::regex nameless_use("NEXT_ASSEMBLY_USAGE_OCCURRENCE\\('([0-9]+)',''");
+  for (std::sregex_iterator i(text.begin(), text.end(), nameless_use), end; i != end; ++i)
     nameless[std::stoi((*i)[1])] = i->str();
   ASSERT_EQ(nameless.size(), 2u);
   for (const auto& [was, name] :
@@ -184,6 +185,69 @@ TEST_F(CadMetadata, SolidsOfOneProductAreParts) {
   }
   EXPECT_EQ(scene.nodes.at(scene.roots.at(0)).name, "pair");
   EXPECT_EQ(scene.nodes.at(scene.roots.at(0)).children.size(), 2u);
+}
+
+TEST_F(CadMetadata, AFaceHasItsOwnColourWithinAColouredBody) {
+  const TopoDS_Shape coloured = box();
+  TopoDS_Compound two;
+  BRep_Builder builder;
+  builder.MakeCompound(two);
+  builder.Add(two, coloured);
+  builder.Add(two, BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 10, 20, 30).Shape());
+  CadFile file;
+  const TDF_Label pair = file.add("pair", two);
+  file.colour_face(pair, coloured, 0xFF0000);
+  file.colour_face(pair, face_of(coloured, 2), 0x0000FF);
+  const Scene scene = write_and_read(file);
+  ASSERT_EQ(scene.parts.size(), 2u);
+  const Part& part = scene.parts[0];
+  const auto blue = std::find_if(part.materials.begin(), part.materials.end(),
+                                 [&](std::uint32_t m) { return scene.materials.at(m).name == "#0000FF"; });
+  ASSERT_NE(blue, part.materials.end());
+  EXPECT_EQ(part.materials.size(), 2u);
+  std::set<std::uint32_t> blue_faces;
+  for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t)
+    if (part.mesh.material[t] == static_cast<std::uint32_t>(blue - part.materials.begin()))
+      blue_faces.insert(part.mesh.face[t]);
+  EXPECT_EQ(blue_faces, (std::set<std::uint32_t>{2}));
+}
+
+TEST_F(CadMetadata, MappedBodiesOfOneShapeKeepTheirColours) {
+  CadFile file;
+  file.add("box", box());
+  file.write_step(folder_ / "file.step");
+  std::string text = read_text(folder_ / "file.step");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      text, found, std::regex("ADVANCED_BREP_SHAPE_REPRESENTATION\\('',\\((#[0-9]+),(#[0-9]+)\\),(#[0-9]+)\\)")));
+  const std::string whole = found[0], axes = found[1], solid = found[2], context = found[3];
+  text.replace(text.find(whole), whole.size(),
+               "SHAPE_REPRESENTATION('',(" + axes + ",#900010,#900020)," + context + ")");
+  folder_.write("file.step", text);
+  // A use of the solid with its place and its colour.
+  const auto use = [&](int first, const std::string& place, const std::string& colour) {
+    const auto number = [&](int i) { return "#" + std::to_string(first + i); };
+    return number(0) + " = MAPPED_ITEM('',#900000," + place + ");\n" +          //
+           number(1) + " = COLOUR_RGB(''," + colour + ");\n" +                  //
+           number(2) + " = FILL_AREA_STYLE_COLOUR(''," + number(1) + ");\n" +   //
+           number(3) + " = FILL_AREA_STYLE('',(" + number(2) + "));\n" +        //
+           number(4) + " = SURFACE_STYLE_FILL_AREA(" + number(3) + ");\n" +     //
+           number(5) + " = SURFACE_SIDE_STYLE('',(" + number(4) + "));\n" +     //
+           number(6) + " = SURFACE_STYLE_USAGE(.BOTH.," + number(5) + ");\n" +  //
+           number(7) + " = PRESENTATION_STYLE_ASSIGNMENT((" + number(6) + "));\n" + number(8) +
+           " = STYLED_ITEM('color',(" + number(7) + ")," + number(0) + ");\n";
+  };
+  const Scene scene = read_with(
+      "#900000 = REPRESENTATION_MAP(" + axes + ",#900001);\n#900001 = ADVANCED_BREP_SHAPE_REPRESENTATION('',(" + axes +
+      "," + solid + ")," + context + ");\n#900002 = CARTESIAN_POINT('',(-40.,7.,100.));\n" +
+      "#900003 = AXIS2_PLACEMENT_3D('',#900002,$,$);\n" + use(900010, axes, "1.,0.,0.") +
+      use(900020, "#900003", "0.,0.,1.") + "#900030 = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(" +
+      "#900018,#900028)," + context + ");\n");
+  std::map<std::string, Vec3> places;
+  for (const Instance& one : instances(scene))
+    for (const std::uint32_t material : scene.parts[one.part].materials)
+      places[scene.materials.at(material).name] = transform_point(one.world, {});
+  EXPECT_EQ(places, (std::map<std::string, Vec3>{{"#FF0000", {}}, {"#0000FF", {-40, 7, 100}}}));
 }
 
 TEST_F(CadMetadata, MaterialAndDensity) {
