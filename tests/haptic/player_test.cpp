@@ -463,6 +463,8 @@ TEST_F(Player, ProbeIsTheDevicesUnlessAskedOtherwise) {
   const Outcome plain = play_glb({{"haptic", tag()}}, testing::sine_png());
   EXPECT_EQ(plain.json()["probe_radius_mm"], 0.5);
   EXPECT_EQ(play_glb({{"haptic", tag()}}, testing::sine_png(), "--probe-radius 0").json()["probe_radius_mm"], 0);
+  const Json report = play_glb({{"haptic", tag()}}, testing::sine_png(), "--probe-radius 2.5").json();
+  EXPECT_DOUBLE_EQ(report["probe_radius_mm"].get<double>(), 2.5);
 }
 
 TEST_F(Player, WavesShorterThanTwoTicksAreLeftOut) {
