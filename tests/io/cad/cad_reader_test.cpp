@@ -11,6 +11,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
+#include <TopoDS_CompSolid.hxx>
 #include <TopoDS_Compound.hxx>
 
 #include <algorithm>
@@ -261,6 +262,27 @@ TEST_F(CadReader, RepeatedShapesInABrepAreInstances) {
   ASSERT_EQ(instances(scene).size(), 2u);
   EXPECT_EQ(instances(scene)[0].world[3], 0);
   EXPECT_EQ(instances(scene)[1].world[3], 50);
+}
+
+TEST_F(CadReader, BodiesOfOneProductLieWhereTheyDo) {
+  const TopoDS_Shape shape = box();
+  gp_Trsf moved;
+  moved.SetTranslation(gp_Vec(-40, 7, 100));
+  TopoDS_CompSolid two;
+  BRep_Builder builder;
+  builder.MakeCompSolid(two);
+  builder.Add(two, shape);
+  builder.Add(two, shape.Located(TopLoc_Location(moved)));
+  const Scene scene = read_as_brep(two);
+  const std::vector<Instance> uses = instances(scene);
+  ASSERT_EQ(uses.size(), 2u);
+  for (const Instance& use : uses) {
+    Vec3 middle;
+    for (const Vec3& p : scene.parts[use.part].mesh.positions)
+      middle = middle + 1.0 / 8 * transform_point(use.world, p);
+    EXPECT_LT(norm(middle - (use.node == uses[0].node ? Vec3{5, 10, 15} : Vec3{-35, 17, 115})), 1e-9);
+  }
+  EXPECT_EQ(uses[0].part, uses[1].part);
 }
 
 bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
