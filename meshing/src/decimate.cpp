@@ -16,8 +16,6 @@ namespace {
 
 /// A triangle may turn by no more than this in one collapse.
 constexpr double k_cos_turn = 0.2588;  // 75 degrees
-/// Among collapses of equal error short ones come first: their squared length counts with this weight in the order.
-constexpr double k_length_weight = 1e-8;
 /// Places of a higher degree, the hubs of fans, are looked at again only when their degree has halved or nothing else
 /// is left to do: else a fan of n triangles would cost n^2.
 constexpr Index k_hub_degree = 48;
@@ -269,7 +267,7 @@ class Decimator {
     for (std::size_t i = 0; i < targets; ++i) {
       const Vec3 d = point(links_here_[i].place) - point(place);
       const double error = quadrics_[place](d);
-      if (error <= most) trials_.push_back({error + k_length_weight * dot(d, d), static_cast<Index>(i)});
+      if (error <= most) trials_.push_back({error + options_.length_weight * dot(d, d), static_cast<Index>(i)});
     }
     std::make_heap(trials_.begin(), trials_.end(), std::greater<>());
     for (int trial = 0; !trials_.empty() && trial < k_most_trials; ++trial) {

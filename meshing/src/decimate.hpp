@@ -13,6 +13,9 @@ struct DecimateOptions {
   double error_mm = 0;  ///< Largest root of a collapse's quadric: no plane it stood for is passed by more than this.
   bool lock_border = false;
   Deadline deadline;  ///< Collapses after it are left out.
+  /// What the squared length of a collapse counts for in the order, beside its error: little, and of equal errors short
+  /// ones come first; much, and edges become even.
+  double length_weight = 1e-8;
 };
 
 /// Half-edge collapses in the order of quadric error [Garland and Heckbert, Surface simplification using quadric error

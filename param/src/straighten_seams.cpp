@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "cheapest_ways.hpp"
@@ -33,10 +34,11 @@ class WayFinder {
 
   /// The cheapest way between the ends of a path, over vertices that are not blocked and not far from it.
   /// @param blocked per vertex; those of the path itself are free. @return empty when there is none.
-  std::vector<Index> between_ends(const std::vector<Index>& path, const std::vector<char>& blocked) {
+  std::vector<Index> between_ends(const std::vector<Index>& path, const std::vector<char>& blocked, double most_mm) {
     double length = 0;
     std::vector<Index> on_path;
     for (const Index h : path) length += mesh_.length(h), on_path.push_back(mesh_.from(h));
+    const double corridor = std::min(most_mm, k_corridor * length);
     on_path.push_back(mesh_.to(path.back()));
     const Index start = on_path.front(), end = on_path.back();
     own_ = on_path;
@@ -44,7 +46,7 @@ class WayFinder {
     const auto is_free = [&](Index v) { return !blocked[v] || std::binary_search(own_.begin(), own_.end(), v); };
     near_.search(
         on_path, [&](Index h) { return mesh_.length(h); },
-        [&](Index v, double d) { return is_free(v) && d <= k_corridor * length; }, [](Index) { return false; });
+        [&](Index v, double d) { return is_free(v) && d <= corridor; }, [](Index) { return false; });
     const Index reached = ways_.search(
         std::array{start}, [&](Index h) { return mesh_.cost[h]; },
         [&](Index v, double) { return near_.has_reached(v); }, [&](Index v) { return v == end; });
@@ -57,7 +59,7 @@ class WayFinder {
   std::vector<Index> own_;
 };
 
-std::vector<NewWay> new_ways(const SeamMesh& mesh, const SeamState& state) {
+std::vector<NewWay> new_ways(const SeamMesh& mesh, const SeamState& state, double most_mm) {
   WayFinder finder(mesh);
   const std::vector<SeamPath> paths = seam_paths(mesh, state);
   std::vector<char> blocked = mesh.on_border;
@@ -66,7 +68,7 @@ std::vector<NewWay> new_ways(const SeamMesh& mesh, const SeamState& state) {
   std::vector<NewWay> ways;
   for (const SeamPath& path : paths) {
     if (path.halfedges.size() < 2 || mesh.from(path.halfedges.front()) == mesh.to(path.halfedges.back())) continue;
-    NewWay way{path.halfedges, finder.between_ends(path.halfedges, blocked), 0, 0};
+    NewWay way{path.halfedges, finder.between_ends(path.halfedges, blocked, most_mm), 0, 0};
     double before = 0, after = 0;
     for (const Index h : way.before) before += mesh.cost[h];
     for (const Index h : way.after) after += mesh.cost[h];
@@ -78,18 +80,28 @@ std::vector<NewWay> new_ways(const SeamMesh& mesh, const SeamState& state) {
   return ways;
 }
 
+std::vector<std::uint8_t> with_ways(const SeamMesh& mesh, const std::vector<NewWay>& ways,
+                                    std::vector<std::uint8_t> seam) {
+  for (const NewWay& way : ways)
+    for (const Index h : way.before) seam[h] = seam[mesh.opposite[h]] = 0;
+  for (const NewWay& way : ways)
+    for (const Index h : way.after) seam[h] = seam[mesh.opposite[h]] = 1;
+  return seam;
+}
+
 }  // namespace
+
+std::vector<std::uint8_t> straightened(const SeamMesh& mesh, std::vector<std::uint8_t> seam, double most_mm) {
+  SeamState state;
+  state.seam = std::move(seam);
+  return with_ways(mesh, new_ways(mesh, state, most_mm), state.seam);
+}
 
 SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
                            const Deadline& deadline) {
-  std::vector<NewWay> ways = new_ways(mesh, state);
+  std::vector<NewWay> ways = new_ways(mesh, state, std::numeric_limits<double>::infinity());
   for (int i = 0; i < k_attempts && !ways.empty() && !deadline.passed(); ++i) {
-    std::vector<std::uint8_t> seam = state.seam;
-    for (const NewWay& way : ways)
-      for (const Index h : way.before) seam[h] = seam[mesh.opposite[h]] = 0;
-    for (const NewWay& way : ways)
-      for (const Index h : way.after) seam[h] = seam[mesh.opposite[h]] = 1;
-    SeamState next = map(seam);
+    SeamState next = map(with_ways(mesh, ways, state.seam));
     if (next.valid && next.distortion <= bound.most + k_bound_slack && next.cost_mm < state.cost_mm) return next;
     std::vector<std::vector<Index>> places;
     for (const NewWay& way : ways) {

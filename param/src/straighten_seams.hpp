@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "shorten_seams.hpp"
 
 namespace papilla::param_detail {
@@ -10,5 +13,9 @@ namespace papilla::param_detail {
 /// @param state keeps the bound. @return a state that keeps it too and whose seams cost no more.
 SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
                            const Deadline& deadline);
+
+/// The same without a bound and a map, for seams that need none yet: ways stay within a distance of the old ones.
+/// @param seam per half-edge, as SeamState::seam.
+std::vector<std::uint8_t> straightened(const SeamMesh& mesh, std::vector<std::uint8_t> seam, double most_mm);
 
 }  // namespace papilla::param_detail

@@ -7,26 +7,22 @@
 #include <limits>
 #include <optional>
 
-#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
-#include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/uv_charts.hpp"
-#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/components.hpp"
 #include "papilla/param/edge_loop.hpp"
 #include "papilla/param/grain_direction.hpp"
 #include "papilla/param/grain_frame.hpp"
 #include "papilla/param/seam_choice.hpp"
+#include "part_charts.hpp"
+#include "part_within_bound.hpp"
 
 namespace papilla {
 namespace {
 
-constexpr double k_share_of_charts = 0.5;  ///< Of the time for a part, for progress.
-
-/// Of maps under a bound, unless another is given: what an iteration still gains there is seam that is not needed.
-constexpr double k_bound_tolerance = 1e-4;
+using namespace detail;
 
 /// Triangles of a part up to which several seam costs are tried: two or three times the time is no matter there.
 std::size_t most_for_seam_choice(UnwrapEffort effort) {
@@ -89,141 +85,6 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   return o;
 }
 
-Flattening map_charts(const TriangleMesh& mesh, const ChartSet& charts, const MethodOptions& o,
-                      std::vector<ChartChoice>& choices) {
-  switch (o.method) {
-    case UnwrapMethod::maillot: {
-      MaillotResult result = flatten_maillot(mesh, charts, o.maillot);
-      choices = std::move(result.choices);
-      return std::move(result.flattening);
-    }
-    case UnwrapMethod::levy: {
-      LevyResult result = flatten_levy(mesh, charts, o.levy);
-      choices = std::move(result.choices);
-      return std::move(result.flattening);
-    }
-    case UnwrapMethod::lscm: return flatten_lscm(mesh, charts, o.lscm);
-    case UnwrapMethod::best: return flatten_best(mesh, charts, o.best);
-    case UnwrapMethod::automatic: {
-      AutomaticResult result = flatten_automatic(mesh, charts, o.automatic);
-      choices = std::move(result.choices);
-      return std::move(result.flattening);
-    }
-    default: return flatten_reference(mesh, charts, o.reference);
-  }
-}
-
-/// Maps with a border on a circle need disks; the others leave holes of flat sheets as they are. Grain of known size
-/// wants its direction kept.
-SegmentationOptions segmentation_of(const MethodOptions& o, const PartContext& context) {
-  SegmentationOptions segmentation = o.segmentation;
-  const bool on_circle = o.method == UnwrapMethod::tutte || o.method == UnwrapMethod::mvc ||
-                         (o.method == UnwrapMethod::levy && o.levy.border == LevyBorder::convex);
-  segmentation.disks = on_circle;
-  if (!(context.tile_mm.x > 0 && context.tile_mm.y > 0)) return segmentation;
-  const PlacedGrain& grain = o.grains.front();
-  switch (grain.source) {
-    case GrainSource::up:
-      segmentation.grain = [up = context.up](Vec3 normal) { return grain_direction(normal, up); };
-      break;
-    case GrainSource::longest:
-    case GrainSource::direction:
-      segmentation.grain = [d = normalized(grain.vector)](Vec3 normal) { return d - dot(d, normal) * normal; };
-      break;
-    case GrainSource::edge_loop: break;  // its direction does not follow from a normal
-  }
-  return segmentation;
-}
-
-/// What several ways to chart and map one part have in common.
-struct PartMemory {
-  std::optional<ChartSegmenter> segmenter;  ///< Made when charts are not in the cache.
-  std::optional<ChartHalver> halver;        ///< Made when a chart has no map.
-  ChartMemory maps;
-};
-
-/// Of charts that may be cut.
-constexpr int k_most_halvings = 6;
-
-/// Halves charts that have no valid map, or none worth having, a few times; the last map stays whatever it is.
-Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions options, int most_halvings,
-                        PartMemory& memory, std::vector<ChartChoice>& choices) {
-  for (ChartMemory** of_method : {&options.maillot.memory, &options.levy.memory, &options.lscm.memory,
-                                  &options.reference.memory, &options.best.memory, &options.automatic.best.memory})
-    *of_method = options.charts == ChartSource::automatic ? &memory.maps : nullptr;
-  for (int i = 0;; ++i) {
-    Flattening flattening = map_charts(cut_open(mesh, charts), charts, options, choices);
-    if (flattening.notes.empty() || i == most_halvings || options.deadline.passed()) {
-      keep_cuts(mesh, charts.cuts, flattening.charts);
-      return flattening;
-    }
-    std::vector<std::uint32_t> failed;
-    for (const ChartNote& note : flattening.notes) failed.push_back(note.chart);
-    if (!memory.halver) memory.halver.emplace(mesh);
-    charts = memory.halver->halve(charts, failed);
-  }
-}
-
-Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
-                         PartMemory& memory, FlattenedPart& part) {
-  const Stopwatch clock;
-  SegmentationOptions segmentation = segmentation_of(o, context);
-  segmentation.progress = [&o](const Progress& done) {
-    report_progress(o.progress, done.stage, k_share_of_charts * done.fraction);
-    return !o.deadline.passed();
-  };
-  const PlacedGrain& grain = o.grains.front();
-  const auto segment = [&] {
-    if (!memory.segmenter) memory.segmenter.emplace(mesh);
-    return memory.segmenter->segment(segmentation).charts;
-  };
-  // A segmentation whose time is up is cancelled: what there is is whole. Its grain is a function, and not in the key.
-  const ChartSet charts = remembered(o.cache, "charts", CacheUse::read_write, segment, mesh, segmentation, grain.source,
-                                     grain.vector, context.up, segmentation.grain != nullptr)
-                              .value;
-  part.segment_seconds += clock.seconds();
-  part.choices.clear();
-  return map_or_halve(mesh, charts, o, k_most_halvings, memory, part.choices);
-}
-
-/// As keep_bound() does.
-Flattening chart_within_bound(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
-                              PartMemory& memory, FlattenedPart& part) {
-  MethodOptions own = o;
-  own.progress = own.best.progress = own.automatic.best.progress = {};
-  own.segmentation.common_price = true;
-  for (BestOptions* best : {&own.best, &own.automatic.best}) {
-    best->energy_limit = std::numeric_limits<double>::infinity();
-    if (!o.tolerance) best->tolerance = std::min(best->tolerance, k_bound_tolerance);
-  }
-  const auto charted = [&](Flattening flattening) {
-    return ChartedMap{std::move(flattening), std::move(part.choices)};
-  };
-  SeamTools tools;
-  tools.chart = [&](double seam_cost, bool feature_seams) {
-    own.segmentation.feature_seams = feature_seams;
-    own.segmentation.seam_cost = seam_cost;
-    return charted(chart_and_map(mesh, own, context, memory, part));
-  };
-  tools.map = [&](const ChartSet& charts, double most_excess_mm2) {
-    part.choices.clear();
-    MethodOptions tried = own;
-    tried.best.give_up_excess_mm2 = tried.automatic.best.give_up_excess_mm2 = most_excess_mm2;
-    return charted(map_or_halve(mesh, charts, std::move(tried), 0, memory, part.choices));
-  };
-  tools.halve = [&](const ChartSet& charts, std::span<const std::uint32_t> numbers) {
-    if (!memory.halver) memory.halver.emplace(mesh);
-    return memory.halver->halve(charts, numbers);
-  };
-  if (!memory.segmenter) memory.segmenter.emplace(mesh);
-  tools.seam_costs = memory.segmenter->seam_costs(own.segmentation);
-  BoundedSeams result = keep_bound(mesh, *o.max_distortion, tools, o.deadline, o.progress);
-  part.bound = BoundReport{*o.max_distortion, result.kept,         result.distortion,
-                           result.seam_mm,    result.seam_cost_mm, std::move(result.trace)};
-  part.choices = std::move(result.charted.choices);
-  return std::move(result.charted.flattening);
-}
-
 /// As choose_seam_cost() does.
 Flattening chart_at_best_price(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
                                PartMemory& memory, FlattenedPart& part) {
@@ -257,7 +118,7 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
   PartMemory memory;
   if (o.charts != ChartSource::automatic)
     return map_or_halve(mesh, given_charts(mesh, o.charts), o, 0, memory, part.choices);
-  if (o.max_distortion) return chart_within_bound(mesh, o, context, memory, part);
+  if (o.max_distortion) return chart_within_bound(mesh, o, context, part);
   if (o.choose_seam_cost && mesh.triangles.size() <= most_for_seam_choice(o.effort))
     return chart_at_best_price(mesh, o, context, memory, part);
   return chart_and_map(mesh, o, context, memory, part);

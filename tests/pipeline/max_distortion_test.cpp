@@ -192,6 +192,41 @@ TEST(MaxDistortion, ItsTraceEndsWithTheResult) {
   EXPECT_TRUE(found);
 }
 
+TEST(MaxDistortion, SeamsAreSoughtOnACoarseMeshFirst) {
+  const TriangleMesh mesh = placed(pebble(40, 64));
+  MethodOptions options = bounded("4.1");
+  options.effort = UnwrapEffort::best;
+  const double on_the_whole = unwrapped(mesh, options).bound->seam_cost_mm;
+  for (const UnwrapEffort effort : {UnwrapEffort::normal, UnwrapEffort::fast}) {
+    options.effort = effort;
+    const FlattenedPart part = unwrapped(mesh, options);
+    EXPECT_TRUE(part.bound->kept);
+    EXPECT_NEAR(part.bound->seam_cost_mm, on_the_whole, 0.25 * on_the_whole);
+    std::size_t coarse = 0, whole = 0;
+    bool found = false;
+    for (const SeamSample& sample : part.bound->trace) {
+      (sample.triangles == mesh.triangles.size() ? whole : coarse) += 1;
+      found = found || (sample.triangles == mesh.triangles.size() && sample.seam_mm == part.bound->seam_mm &&
+                        sample.distortion == part.bound->distortion);
+    }
+    EXPECT_TRUE(found);
+    EXPECT_GT(coarse, 2 * whole);
+    const FlattenedPart again = unwrapped(mesh, options);
+    EXPECT_EQ(again.flattening.uv.indices, part.flattening.uv.indices);
+  }
+}
+
+TEST(MaxDistortion, ADevelopablePartNeedsNoMoreSeamsForBeingCoarse) {
+  // The triangles of few vertices of a cylinder are not developable, its own are: one cut along it is enough.
+  MethodOptions options = bounded("4.0005");
+  for (const UnwrapEffort effort : {UnwrapEffort::normal, UnwrapEffort::fast}) {
+    options.effort = effort;
+    const FlattenedPart part = unwrapped(placed(test::cylinder(30, 80, 96, 24)), options);
+    EXPECT_TRUE(part.bound->kept);
+    EXPECT_NEAR(part.bound->seam_mm, 80, 1e-6);
+  }
+}
+
 TEST(MaxDistortion, IsRefusedWhereChartsAreGiven) {
   const TriangleMesh mesh = test::plane(30, 20, 3, 2);
   EXPECT_THROW(flatten_part(mesh, {}, bounded("4.1", UnwrapMethod::lscm)), InvalidInput);

@@ -23,6 +23,7 @@ Json bound_json(const std::optional<BoundReport>& report) {
   Json trace = Json::array();
   for (const SeamSample& s : report->trace)
     trace.push_back({{"seconds", s.seconds},
+                     {"triangles", s.triangles},
                      {"seam_mm", s.seam_mm},
                      {"seam_cost_mm", s.seam_cost_mm},
                      {"distortion", s.distortion}});

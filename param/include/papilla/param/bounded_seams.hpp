@@ -32,6 +32,8 @@ struct ChartedMap {
   std::vector<ChartChoice> choices;
 };
 
+struct CoarseSurface;
+
 /// What keep_bound() works with.
 struct SeamTools {
   /// Charts of the whole mesh for a seam cost, with seams along features or only where they are needed, and their map.
@@ -42,15 +44,24 @@ struct SeamTools {
   std::function<ChartedMap(const ChartSet&, double most_excess_mm2)> map;
   /// Charts with the named ones cut in two.
   std::function<ChartSet(const ChartSet&, std::span<const std::uint32_t>)> halve;
-  std::vector<double> seam_costs;  ///< Per half-edge 3 t + k: what a seam there counts [mm]; not negative.
+  std::vector<double> seam_costs;         ///< Per half-edge 3 t + k: what a seam there counts [mm]; not negative.
+  const CoarseSurface* coarse = nullptr;  ///< Given: seams are sought on it first, and finished on the whole mesh.
+};
+
+/// A surface with fewer triangles.
+struct CoarseSurface {
+  const TriangleMesh& mesh;
+  std::span<const Index> vertices;  ///< Per vertex: which one of the fine mesh it is.
+  SeamTools tools;                  ///< For this mesh.
 };
 
 /// One map on the way to the result.
 struct SeamSample {
-  double seconds = 0;       ///< Since keep_bound() was entered.
-  double seam_mm = 0;       ///< Length of its seams.
-  double seam_cost_mm = 0;  ///< Σ of SeamTools::seam_costs over them.
-  double distortion = 0;    ///< bounded_distortion().
+  double seconds = 0;         ///< Since keep_bound() was entered.
+  std::size_t triangles = 0;  ///< Of the mesh that was mapped: the coarse one or the whole.
+  double seam_mm = 0;         ///< Length of its seams.
+  double seam_cost_mm = 0;    ///< Σ of SeamTools::seam_costs over them.
+  double distortion = 0;      ///< bounded_distortion().
 };
 
 struct BoundedSeams {
@@ -79,15 +90,22 @@ inline constexpr double k_bound_slack = 1e-6;
 /// takes those lengths that save most per energy for the energy that is left; the charts are mapped anew, and what came
 /// out worse than foreseen around a place counts as dearer there from then on. A round that breaks the bound is taken
 /// back and made with half of the energy. 3. Stretches between two places where seams meet or end are laid along the
-/// cheapest way beside the old one while the bound allows it; then rounds begin again. 4. Of the cheapest that come of
+/// cheapest way beside the old one while the bound allows it; then rounds begin again. 4. Of the cheapest that comes of
 /// it, stretches without which the seams would fall into two pieces are exchanged for the cheapest way between these
-/// (key-path exchange, [Voß 1992]). 5. The cheapest is brought away from the bound and back, its slits end at other
-/// vertices, and 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but those
-/// whose map was left unfinished and is wanted whole.
+/// (key-path exchange, [Voß 1992]). 5. It is brought away from the bound and back, its slits end at other vertices, and
+/// 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but those whose map was
+/// left unfinished and is wanted whole.
+///
+/// With `coarse`, all that is done on the coarse mesh, for a bound under which the fine map of the same seams comes out
+/// at the one that is asked for: found from the ratio of their D - 4, once when first seams are short and up to twice
+/// at the end. Seams are lifted to the fine mesh edge by edge and straightened within a coarse edge; 2. and 3. finish
+/// them there. Where nothing comes of that the whole mesh is searched.
 ///
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
-/// seams there are: a local search. Cost: 20 to 300 maps, most often 100. Deterministic when the tools are.
+/// seams there are: a local search; a coarse mesh that has no place for the details of the fine one costs some per
+/// cent. Cost: 20 to 300 maps, most often 100; with `coarse` so many of the coarse mesh, and 5 to 20 of the whole.
+/// Deterministic when the tools are.
 /// @throws InvalidInput for a bound out of range or costs that do not fit the mesh; what the tools throw.
 BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
                         Deadline deadline = {}, const ProgressCallback& progress = {});

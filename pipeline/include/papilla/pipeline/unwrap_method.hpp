@@ -95,9 +95,15 @@ bool takes_charts(UnwrapMethod method);
 
 /// What time may be spent on charts and on the maps of best and automatic.
 enum class UnwrapEffort {
-  fast,    ///< Charts for one seam cost, few unions tried; no Newton steps on charts of over 20,000 vertices.
-  normal,  ///< As the methods' options say; two or three seam costs on parts of up to 50,000 triangles.
-  best,    ///< Two seam costs on every part, Newton steps on all charts until they gain less than 1e-5.
+  /// Charts for one seam cost, few unions tried; no Newton steps on charts of over 20,000 vertices. Seams under a bound
+  /// are sought on 800 triangles.
+  fast,
+  /// As the methods' options say; two or three seam costs on parts of up to 50,000 triangles. Seams under a bound are
+  /// sought on 2,200 triangles.
+  normal,
+  /// Two seam costs on every part, Newton steps on all charts until they gain less than 1e-5. Seams under a bound are
+  /// sought on the whole part.
+  best,
 };
 
 /// Names of what the methods' options can be, on the command line and in MATERIALS.json.

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "seam_state.hpp"
+#include "seam_trace.hpp"
+#include "shorten_seams.hpp"
+
+namespace papilla::param_detail {
+
+/// Seeks short seams of one mesh whose map keeps a bound, as keep_bound() says.
+class BoundKeeper {
+ public:
+  /// @param trace gets a sample of every map. All that is given has to outlive this.
+  BoundKeeper(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools, const Deadline& deadline,
+              SeamTrace& trace);
+  BoundKeeper(const BoundKeeper&) = delete;
+  BoundKeeper& operator=(const BoundKeeper&) = delete;
+
+  /// Told the first state whose seams are short; the bound to go on with.
+  using Calibrate = std::function<DistortionBound(const SeamState&)>;
+
+  /// From nothing on. @return the cheapest state that keeps the bound, or the one of least distortion.
+  SeamState search(const Calibrate& calibrate = {});
+
+  /// Short seams for another bound, from what is known.
+  SeamState moved(SeamState state, const DistortionBound& bound);
+
+  /// Brings a state within the bound where it is not, and shortens its seams. @return nothing when it can't be brought.
+  std::optional<SeamState> finished(SeamState state);
+
+  /// A map of seams, made once as long as it is remembered, and again where it was left unfinished and is wanted whole.
+  /// @param whole also where it is of no use as it breaks the bound.
+  SeamState map_seams(const std::vector<std::uint8_t>& seam, bool whole);
+
+  bool keeps(const SeamState& state) const { return state.distortion <= bound_.most + k_bound_slack; }
+  const SeamMesh& mesh() const { return mesh_; }
+
+ private:
+  bool consider(SeamState state);
+  bool try_cost(double seam_cost);
+  bool is_same_without_features();
+  void search_cost();
+  bool leave_same_seams(double low, double high);
+  SeamState map(const ChartSet& charts, double most_excess_mm2);
+  std::vector<std::uint32_t> worth_halving(const SeamState& state) const;
+  void halve();
+  void lengthen();
+  void keep_cheapest();
+  void move_bound(const DistortionBound& bound);
+  std::optional<SeamState> cheapest_known() const;
+  std::optional<SeamState> lengthened(SeamState state) const;
+  SeamState shortened(SeamState state);
+  SeamState reconnected(SeamState state);
+  SeamState shortest(const Calibrate& calibrate);
+  SeamState exchanged(SeamState state);
+
+  struct Try {
+    bool keeps_bound = false;
+    std::vector<std::uint8_t> seam;
+  };
+  using Tries = std::map<double, Try>;  ///< By seam cost.
+  struct Known {
+    SeamState state;        ///< Without uv and seams where it is not whole.
+    bool is_whole = false;  ///< Not left unfinished.
+    std::size_t triangles() const;
+  };
+
+  SeamMesh mesh_;
+  DistortionBound bound_;
+  const SeamTools& tools_;
+  const Deadline& deadline_;
+  SeamTrace& trace_;
+  bool feature_seams_ = true;
+  std::vector<SeamState> kept_, starts_, near_;
+  std::optional<SeamState> least_;  ///< Of the least distortion.
+  double last_cost_mm_ = 0, last_distortion_ = 0;
+  std::map<bool, Tries> tried_;                         ///< Without seams along features, and with.
+  std::unordered_map<std::vector<bool>, Known> known_;  ///< By their seams.
+  std::size_t remembered_ = 0;                          ///< Triangles of known_.
+  const MapSeams map_ = [this](const std::vector<std::uint8_t>& seam) { return map_seams(seam, false); };
+  const MapSeams map_fully_ = [this](const std::vector<std::uint8_t>& seam) { return map_seams(seam, true); };
+};
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "coarse_seams.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "lift_seams.hpp"
+
+namespace papilla::param_detail {
+namespace {
+
+/// What D - 4 of the coarse mesh is taken to be over that of the fine one before it is known, and what it may be: a
+/// cylinder of few triangles is no developable surface, and a coarse bump has less detail.
+constexpr double k_first_ratio = 1.3, k_least_ratio = 1.0 / 3, k_most_ratio = 1000;
+
+/// As often the coarse bound is moved after the search, where D - 4 of the fine mesh is beyond these parts of what it
+/// may be.
+constexpr int k_moves = 2;
+constexpr double k_low = 0.93, k_high = 1.01;
+
+/// What seams are thought to cost when they are finished: they get shorter by so small a power of what is left of D -
+/// 4, and longer by so much for what is missing, for running on does worse than closing.
+constexpr double k_shorter = 0.15, k_longer = 6;
+
+/// Beyond this part of what D - 4 may be seams are not brought within the bound.
+constexpr double k_most_part = 1.5;
+
+/// Of the time that there is.
+constexpr double k_share_of_time = 0.5;
+
+class CoarseSearch {
+ public:
+  CoarseSearch(BoundKeeper& fine, const DistortionBound& bound, const CoarseSurface& coarse, const Deadline& deadline,
+               SeamTrace& trace)
+      : fine_(fine),
+        bound_(bound),
+        vertices_(coarse.vertices),
+        deadline_(deadline),
+        coarse_deadline_(deadline.never() ? deadline : Deadline(k_share_of_time * deadline.left())),
+        coarse_(coarse.mesh, scaled(k_first_ratio), coarse.tools, coarse_deadline_, trace) {}
+
+  std::optional<SeamState> run() {
+    SeamState found = coarse_.search(
+        [&](const SeamState& state) { return scaled(lift(state) ? ratio_to_lifted(state) : k_first_ratio); });
+    bool is_new = lift(found);
+    for (int i = 0; i < k_moves && is_new && !deadline_.passed(); ++i) {
+      const double part = part_of(lifted_.back());
+      if (part > k_low && part < k_high) break;
+      SeamState next = coarse_.moved(found, scaled(ratio_to_lifted(found)));
+      is_new = next.seam != found.seam && lift(next);
+      found = std::move(next);
+    }
+    return finished();
+  }
+
+ private:
+  DistortionBound scaled(double ratio) const { return {4 + (bound_.most - 4) * ratio, bound_.percentile}; }
+
+  double part_of(const SeamState& state) const { return (state.distortion - 4) / (bound_.most - 4); }
+
+  /// D - 4 of a state over that of the last one that was lifted.
+  double ratio_to_lifted(const SeamState& state) const {
+    return std::clamp((state.distortion - 4) / (lifted_.back().distortion - 4), k_least_ratio, k_most_ratio);
+  }
+
+  /// @return whether it has a map on the fine mesh.
+  bool lift(const SeamState& state) {
+    SeamState fine = fine_.map_seams(lift_seams(fine_.mesh(), coarse_.mesh(), vertices_, state.seam), true);
+    if (!fine.valid) return false;
+    lifted_.push_back(std::move(fine));
+    return true;
+  }
+
+  double cost_when_finished(const SeamState& state) const {
+    const double part = part_of(state);
+    return state.cost_mm * (part > 1 ? 1 + k_longer * (part - 1) : std::pow(part, k_shorter));
+  }
+
+  /// What was lifted and is worth most, on the fine mesh.
+  std::optional<SeamState> finished() {
+    std::stable_sort(lifted_.begin(), lifted_.end(),
+                     [&](const auto& a, const auto& b) { return cost_when_finished(a) < cost_when_finished(b); });
+    for (const SeamState& state : lifted_)
+      if (part_of(state) <= k_most_part)
+        if (auto done = fine_.finished(state)) return done;
+    if (!deadline_.passed() || lifted_.empty()) return {};
+    return *std::min_element(lifted_.begin(), lifted_.end(),
+                             [](const auto& a, const auto& b) { return a.distortion < b.distortion; });
+  }
+
+  BoundKeeper& fine_;
+  const DistortionBound& bound_;
+  std::span<const Index> vertices_;
+  const Deadline& deadline_;
+  Deadline coarse_deadline_;
+  BoundKeeper coarse_;
+  std::vector<SeamState> lifted_;
+};
+
+}  // namespace
+
+std::optional<SeamState> seams_from_coarse(BoundKeeper& fine, const DistortionBound& bound, const CoarseSurface& coarse,
+                                           const Deadline& deadline, SeamTrace& trace) {
+  return CoarseSearch(fine, bound, coarse, deadline, trace).run();
+}
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "lift_seams.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "papilla/meshing/coarsen.hpp"
+#include "papilla_test/shapes.hpp"
+#include "seam_paths.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace param_detail;
+
+/// A mesh whose seams cost their length.
+struct Priced {
+  explicit Priced(TriangleMesh of) : mesh(std::move(of)), costs(3 * mesh.triangles.size(), 0), seams(mesh, costs) {
+    for (Index h = 0; h < costs.size(); ++h) costs[h] = seams.length(h);
+  }
+  std::vector<std::uint8_t> borders() const {
+    std::vector<std::uint8_t> seam;
+    for (const Index opposite : seams.opposite) seam.push_back(opposite == k_no_triangle);
+    return seam;
+  }
+  /// Makes the edges between two points seams that lie on the straight line between these.
+  void cut(std::vector<std::uint8_t>& seam, Vec3 a, Vec3 b) const {
+    const auto is_on = [&](Index v) {
+      const Vec3 p = mesh.positions[v];
+      return std::abs(norm(p - a) + norm(p - b) - norm(b - a)) < 1e-9;
+    };
+    for (Index h = 0; h < seam.size(); ++h)
+      if (is_on(seams.from(h)) && is_on(seams.to(h))) seam[h] = 1;
+  }
+  double length(const std::vector<std::uint8_t>& seam) const {
+    double sum = 0;
+    for (Index h = 0; h < seam.size(); ++h)
+      if (seam[h] && seams.opposite[h] != k_no_triangle) sum += 0.5 * seams.length(h);
+    return sum;
+  }
+  std::size_t tips(const std::vector<std::uint8_t>& seam) const {
+    SeamState state;
+    state.seam = seam;
+    std::size_t count = 0;
+    for (const SeamPath& path : seam_paths(seams, state)) count += path.tip_at_start + path.tip_at_end;
+    return count;
+  }
+
+  TriangleMesh mesh;
+  std::vector<double> costs;
+  SeamMesh seams;
+};
+
+/// Of each vertex of the coarse mesh, the one of the fine mesh at its place.
+std::vector<Index> places(const TriangleMesh& coarse, const TriangleMesh& fine) {
+  std::vector<Index> vertices;
+  for (const Vec3& p : coarse.positions)
+    for (Index v = 0; v < fine.positions.size(); ++v)
+      if (norm(fine.positions[v] - p) < 1e-9) vertices.push_back(v);
+  EXPECT_EQ(vertices.size(), coarse.positions.size());
+  return vertices;
+}
+
+TEST(LiftSeams, StraightSeamsStayWhereTheyAre) {
+  const Priced coarse(test::plane(40, 12, 4, 2)), fine(test::plane(40, 12, 20, 12));
+  const std::vector<Index> vertices = places(coarse.mesh, fine.mesh);
+  // Along y a slit, along x a cut from border to border, which meet.
+  std::vector<std::uint8_t> seam = coarse.borders();
+  coarse.cut(seam, {10, 6, 0}, {10, 12, 0});
+  coarse.cut(seam, {0, 6, 0}, {40, 6, 0});
+  const std::vector<std::uint8_t> lifted = lift_seams(fine.seams, coarse.seams, vertices, seam);
+  std::vector<std::uint8_t> expected = fine.borders();
+  fine.cut(expected, {10, 6, 0}, {10, 12, 0});
+  fine.cut(expected, {0, 6, 0}, {40, 6, 0});
+  EXPECT_EQ(lifted, expected);
+  EXPECT_EQ(charts_between(fine.seams, lifted).count, 3u);
+}
+
+TEST(LiftSeams, CornersOfOneTriangleAreReachedBesideThem) {
+  // Of the fine mesh, no seam can run to the corners at (40, 0) and (0, 12). The coarse one joins them.
+  TriangleMesh two;
+  two.positions = {{0, 0, 0}, {40, 0, 0}, {40, 12, 0}, {0, 12, 0}};
+  two.triangles = {{0, 1, 3}, {1, 2, 3}};
+  const Priced coarse(two), fine(test::plane(40, 12, 20, 12));
+  std::vector<std::uint8_t> seam = coarse.borders();
+  coarse.cut(seam, {40, 0, 0}, {0, 12, 0});
+  const std::vector<std::uint8_t> lifted = lift_seams(fine.seams, coarse.seams, places(two, fine.mesh), seam);
+  EXPECT_EQ(fine.tips(lifted), 0u);
+  EXPECT_EQ(charts_between(fine.seams, lifted).count, 2u);
+}
+
+TEST(LiftSeams, NeighboursKeepApart) {
+  // Slits from opposite borders that pass each other at one coarse edge's distance.
+  const Priced coarse(test::plane(8, 30, 4, 10)), fine(test::plane(8, 30, 12, 40));
+  std::vector<std::uint8_t> seam = coarse.borders();
+  coarse.cut(seam, {4, 0, 0}, {4, 21, 0});
+  coarse.cut(seam, {6, 30, 0}, {6, 9, 0});
+  const std::vector<std::uint8_t> lifted = lift_seams(fine.seams, coarse.seams, places(coarse.mesh, fine.mesh), seam);
+  EXPECT_EQ(coarse.tips(seam), 2u);
+  EXPECT_EQ(fine.tips(lifted), 2u);
+  EXPECT_EQ(charts_between(fine.seams, lifted).count, 1u);
+  EXPECT_NEAR(fine.length(lifted), 42, 1e-9);
+}
+
+TEST(LiftSeams, WaysOfASphereAreNearlyAsShortAsItsEdgesAllow) {
+  const Priced fine(test::uv_sphere(10, 40, 90));
+  const CoarseMesh few = coarsen(fine.mesh, 300);
+  const Priced coarse(few.mesh);
+  // From pole to pole and around nothing: a shortest way over coarse edges is no shorter than half a great circle.
+  std::vector<std::uint8_t> seam(3 * coarse.mesh.triangles.size(), 0);
+  Index v = 0;
+  for (Index i = 1; i < coarse.mesh.positions.size(); ++i)
+    if (coarse.mesh.positions[i].z > coarse.mesh.positions[v].z) v = i;
+  double length = 0;
+  for (bool down = true; down;) {  // the edge that leads down most steeply
+    Index best = ~Index{0};
+    double steepest = 0;
+    for (Index h = 0; h < seam.size(); ++h) {
+      const double fall = coarse.mesh.positions[coarse.seams.from(h)].z - coarse.mesh.positions[coarse.seams.to(h)].z;
+      if (coarse.seams.from(h) == v && fall > steepest * coarse.seams.length(h))
+        steepest = fall / coarse.seams.length(h), best = h;
+    }
+    down = best != ~Index{0};
+    if (!down) break;
+    seam[best] = seam[coarse.seams.opposite[best]] = 1;
+    length += coarse.seams.length(best);
+    v = coarse.seams.to(best);
+  }
+  const std::vector<std::uint8_t> lifted = lift_seams(fine.seams, coarse.seams, few.vertices, seam);
+  EXPECT_EQ(fine.tips(lifted), 2u);
+  EXPECT_EQ(charts_between(fine.seams, lifted).count, 1u);
+  EXPECT_GT(fine.length(lifted), 0.95 * 10 * 3.14159);
+  EXPECT_LT(fine.length(lifted), 1.1 * length);
+}
+
+}  // namespace
+}  // namespace papilla
