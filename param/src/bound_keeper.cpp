@@ -46,6 +46,9 @@ constexpr std::size_t k_whole = 6;
 constexpr double k_near = 2;
 constexpr std::size_t k_near_starts = 2;
 
+/// Seams for another bound that are dearer by more than this are searched on.
+constexpr double k_dear = 1.1;
+
 /// As often charts are halved where no seam cost is low enough, and the part of its energy that a chart is thought to
 /// lose by that.
 constexpr int k_halvings = 6;
@@ -85,7 +88,8 @@ SeamState BoundKeeper::moved(SeamState state, const DistortionBound& bound) {
   std::optional<SeamState> longer = lengthened(state);
   if (longer) *longer = shortened(std::move(*longer));
   if (!known || (longer && longer->cost_mm < known->cost_mm)) known = std::move(longer);
-  return known ? std::move(*known) : std::move(state);
+  if (!known) return state;
+  return known->cost_mm > k_dear * state.cost_mm ? exchanged(reconnected(std::move(*known))) : std::move(*known);
 }
 
 std::optional<SeamState> BoundKeeper::finished(SeamState state) {
@@ -97,6 +101,7 @@ std::optional<SeamState> BoundKeeper::finished(SeamState state) {
 /// Keeps the state where it is of use. @return whether the bound is kept.
 bool BoundKeeper::consider(SeamState state) {
   trace_.add(mesh_, state);
+  remember({state.seam.begin(), state.seam.end()}, {state, true});
   const bool good = keeps(state);
   if (!least_ || state.distortion < least_->distortion) least_ = state;
   if (good)
@@ -249,11 +254,15 @@ SeamState BoundKeeper::map_seams(const std::vector<std::uint8_t>& seam, bool who
     else
       known.state.charted = {}, known.state.seam = {};
   }
+  remember(std::move(key), std::move(known));
+  return state;
+}
+
+void BoundKeeper::remember(std::vector<bool> key, Known known) {
   if (const auto before = known_.find(key); before != known_.end()) remembered_ -= before->second.triangles();
   remembered_ += known.triangles();
   if (remembered_ > k_most_remembered) known_.clear(), remembered_ = known.triangles();
   known_.insert_or_assign(std::move(key), std::move(known));
-  return state;
 }
 
 std::size_t BoundKeeper::Known::triangles() const { return (is_whole ? k_whole : 1) * state.excess.size(); }

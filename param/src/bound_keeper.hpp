@@ -43,24 +43,6 @@ class BoundKeeper {
   const SeamMesh& mesh() const { return mesh_; }
 
  private:
-  bool consider(SeamState state);
-  bool try_cost(double seam_cost);
-  bool is_same_without_features();
-  void search_cost();
-  bool leave_same_seams(double low, double high);
-  SeamState map(const ChartSet& charts, double most_excess_mm2);
-  std::vector<std::uint32_t> worth_halving(const SeamState& state) const;
-  void halve();
-  void lengthen();
-  void keep_cheapest();
-  void move_bound(const DistortionBound& bound);
-  std::optional<SeamState> cheapest_known() const;
-  std::optional<SeamState> lengthened(SeamState state) const;
-  SeamState shortened(SeamState state);
-  SeamState reconnected(SeamState state);
-  SeamState shortest(const Calibrate& calibrate);
-  SeamState exchanged(SeamState state);
-
   struct Try {
     bool keeps_bound = false;
     std::vector<std::uint8_t> seam;
@@ -71,6 +53,25 @@ class BoundKeeper {
     bool is_whole = false;  ///< Not left unfinished.
     std::size_t triangles() const;
   };
+
+  bool consider(SeamState state);
+  bool try_cost(double seam_cost);
+  bool is_same_without_features();
+  void search_cost();
+  bool leave_same_seams(double low, double high);
+  SeamState map(const ChartSet& charts, double most_excess_mm2);
+  std::vector<std::uint32_t> worth_halving(const SeamState& state) const;
+  void halve();
+  void lengthen();
+  void keep_cheapest();
+  void remember(std::vector<bool> seam, Known known);
+  void move_bound(const DistortionBound& bound);
+  std::optional<SeamState> cheapest_known() const;
+  std::optional<SeamState> lengthened(SeamState state) const;
+  SeamState shortened(SeamState state);
+  SeamState reconnected(SeamState state);
+  SeamState shortest(const Calibrate& calibrate);
+  SeamState exchanged(SeamState state);
 
   SeamMesh mesh_;
   DistortionBound bound_;

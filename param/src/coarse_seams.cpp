@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,9 +17,9 @@ namespace {
 constexpr double k_first_ratio = 1.3, k_least_ratio = 1.0 / 3, k_most_ratio = 1000;
 
 /// As often the coarse bound is moved after the search, where D - 4 of the fine mesh is beyond these parts of what it
-/// may be.
-constexpr int k_moves = 2;
-constexpr double k_low = 0.93, k_high = 1.01;
+/// may be. Where it stays too large, each time by so much more.
+constexpr int k_moves = 4;
+constexpr double k_low = 0.93, k_high = 1.01, k_more = 0.05;
 
 /// What seams are thought to cost when they are finished: they get shorter by so small a power of what is left of D -
 /// 4, and longer by so much for what is missing, for running on does worse than closing.
@@ -26,6 +27,10 @@ constexpr double k_shorter = 0.15, k_longer = 6;
 
 /// Beyond this part of what D - 4 may be seams are not brought within the bound.
 constexpr double k_most_part = 1.5;
+
+/// What comes of it is given up where it costs so many times what was lifted: the coarse mesh had no place for such
+/// seams.
+constexpr double k_too_dear = 1.5;
 
 /// Of the time that there is.
 constexpr double k_share_of_time = 0.5;
@@ -47,8 +52,9 @@ class CoarseSearch {
     bool is_new = lift(found);
     for (int i = 0; i < k_moves && is_new && !deadline_.passed(); ++i) {
       const double part = part_of(lifted_.back());
-      if (part > k_low && part < k_high) break;
-      SeamState next = coarse_.moved(found, scaled(ratio_to_lifted(found)));
+      if (part < k_high && (part > k_low || i > 1)) break;
+      const double aim = part < k_high ? 1 : 1 - k_more * i;
+      SeamState next = coarse_.moved(found, scaled(aim * ratio_to_lifted(found)));
       is_new = next.seam != found.seam && lift(next);
       found = std::move(next);
     }
@@ -82,9 +88,12 @@ class CoarseSearch {
   std::optional<SeamState> finished() {
     std::stable_sort(lifted_.begin(), lifted_.end(),
                      [&](const auto& a, const auto& b) { return cost_when_finished(a) < cost_when_finished(b); });
+    std::erase_if(lifted_, [&](const SeamState& state) { return part_of(state) > k_most_part; });
+    double least = std::numeric_limits<double>::infinity();
+    for (const SeamState& state : lifted_) least = std::min(least, state.cost_mm);
     for (const SeamState& state : lifted_)
-      if (part_of(state) <= k_most_part)
-        if (auto done = fine_.finished(state)) return done;
+      if (auto done = fine_.finished(state); done && (deadline_.passed() || done->cost_mm <= k_too_dear * least))
+        return done;
     if (!deadline_.passed() || lifted_.empty()) return {};
     return *std::min_element(lifted_.begin(), lifted_.end(),
                              [](const auto& a, const auto& b) { return a.distortion < b.distortion; });
