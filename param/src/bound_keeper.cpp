@@ -46,8 +46,8 @@ constexpr std::size_t k_whole = 6;
 constexpr double k_near = 2;
 constexpr std::size_t k_near_starts = 2;
 
-/// Seams for another bound that are dearer by more than this are searched on.
-constexpr double k_dear = 1.1;
+/// Seams for another bound are searched on where it leaves so much more of D - 4, or they are dearer by as much.
+constexpr double k_much = 1.1;
 
 /// As often charts are halved where no seam cost is low enough, and the part of its energy that a chart is thought to
 /// lose by that.
@@ -82,14 +82,19 @@ SeamState BoundKeeper::search(const Calibrate& calibrate) {
 
 SeamState BoundKeeper::moved(SeamState state, const DistortionBound& bound) {
   move_bound(bound);
-  if (keeps(state)) return shortened(std::move(state));
+  const auto searched_on = [&](SeamState from) { return exchanged(reconnected(std::move(from))); };
+  if (keeps(state)) {
+    const bool has_room = bound_.most - 4 > k_much * (state.distortion - 4);
+    state = shortened(std::move(state));
+    return has_room ? searched_on(std::move(state)) : state;
+  }
   std::optional<SeamState> known = cheapest_known();
   if (known) *known = shortened(std::move(*known));
   std::optional<SeamState> longer = lengthened(state);
   if (longer) *longer = shortened(std::move(*longer));
   if (!known || (longer && longer->cost_mm < known->cost_mm)) known = std::move(longer);
   if (!known) return state;
-  return known->cost_mm > k_dear * state.cost_mm ? exchanged(reconnected(std::move(*known))) : std::move(*known);
+  return known->cost_mm > k_much * state.cost_mm ? searched_on(std::move(*known)) : std::move(*known);
 }
 
 std::optional<SeamState> BoundKeeper::finished(SeamState state) {
