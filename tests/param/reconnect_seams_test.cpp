@@ -187,6 +187,29 @@ TEST_F(Sheet, TwoSlitsThatAreBridgedAreJoinedToTheBorderEach) {
   EXPECT_EQ(result.distortion, 4.05);
 }
 
+TEST_F(Sheet, ASlitIsJoinedToTheSeamThatLedToIt) {
+  // The way to a slit in row 3 passes two rows below it, and all of it up to there is needed. From below its numbers
+  // grow along it, from above they fall.
+  for (const bool from_above : {false, true}) {
+    const auto place = [&](double column, double row) { return at(column, from_above ? k_rows - row : row); };
+    std::vector<std::uint8_t> needed = borders(), seam;
+    cut(needed, place(2, 0), place(2, 1));
+    cut(needed, place(2, 1), place(5, 1));
+    cut(needed, place(3, 3), place(5, 3));
+    cut(needed, place(5, 3), place(5, 2));
+    seam = needed;
+    cut(seam, place(5, 1), place(9, 1));
+    cut(seam, place(9, 1), place(9, 3));
+    cut(seam, place(9, 3), place(5, 3));
+    const MapSeams map_seams = map_that_needs(needed);
+    const SeamState start = map_seams(seam);
+    ASSERT_EQ(start.distortion, 4.05);
+    ASSERT_NEAR(start.seam_mm, 13 + 4 * k_high, 1e-9);
+    const SeamState result = reconnect_seams(seams_, start, {}, map_seams, map_seams, {});
+    EXPECT_NEAR(result.seam_mm, 5 + 3 * k_high, 1e-9) << from_above;
+  }
+}
+
 TEST_F(Sheet, WhatBreaksTheBoundIsLeft) {
   std::vector<std::uint8_t> seam = borders();
   cut(seam, at(3, 0), at(3, 5));
