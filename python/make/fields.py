@@ -45,7 +45,7 @@ LEFT_OUT = ["StageRule", "LoopStatus", "LoopOptions", "EvaluationKind", "Evaluat
             "TexturePoints", "PointRaster", "PlacedMesh", "EvaluationGroup", "HeightRows",
             "GltfSurfaceEdit", "GltfEdit", "EncodedRelief", "EncodedMaps", "BudgetPart", "MeshSheets", "ComparedPart",
             "SelectorKey", "PixelRelief", "IdenticalOptions", "AssignedPart", "ObjectTextureOptions", "HeightField",
-            "GltfSource", "GltfTagEdit", "SeamTools", "ChartedMap", "BoundedSeams"]  # fmt: skip
+            "GltfSource", "GltfTagEdit", "SeamTools", "CoarseSurface", "ChartedMap", "BoundedSeams"]  # fmt: skip
 
 # Small structs of numbers that come in large numbers: vectors of them are structured arrays.
 STRUCTURED = ["TraceSample", "TriangleDistortion", "ScalePoint", "RecordRow", "WeldStep", "Instance"]
