@@ -205,6 +205,16 @@ TEST(LargestMaterial, CentreIsTheMeanOverItsArea) {
   EXPECT_LT(norm(found.centre - expected), 1e-12);
 }
 
+TEST(LargestMaterial, TrianglesWithoutNumbersHaveTheFirst) {
+  HapticScene scene;
+  scene.materials.resize(2);
+  scene.mesh.positions = {{0, 0, 1}, {6, 0, 1}, {0, 3, 1}};
+  scene.mesh.triangles = {{0, 1, 2}};
+  const LargestMaterial found = largest_material(scene);
+  EXPECT_EQ(found.material, 0U);
+  EXPECT_LT(norm(found.centre - Vec3{2, 1, 1}), 1e-12);
+}
+
 TEST(HapticScene, LaysRoughnessOverTheMap) {
   nlohmann::json rough = tag();
   rough["version"] = 2;

@@ -424,7 +424,7 @@ LargestMaterial largest_material(const HapticScene& scene) {
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
     const Vec3 a = scene.mesh.corner(t, 0), b = scene.mesh.corner(t, 1), c = scene.mesh.corner(t, 2);
     const double size = 0.5 * norm(cross(b - a, c - a));
-    const std::uint32_t m = scene.mesh.material[t];
+    const std::uint32_t m = scene.mesh.material_of(t);
     area[m] += size;
     moment[m] = moment[m] + (size / 3) * (a + b + c);
   }
