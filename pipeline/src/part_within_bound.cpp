@@ -13,8 +13,9 @@
 namespace papilla::detail {
 namespace {
 
-/// Of maps under a bound at most, unless another is given: what an iteration still gains is seam that is not needed.
-constexpr double k_bound_tolerance = 1e-3;
+/// Of maps under a bound at most, unless another is given, over what it leaves of D - 4: what an iteration still gains
+/// is seam that is not needed.
+constexpr double k_tolerance = 0.01, k_least_tolerance = 1e-5;
 
 /// A mesh is made coarser where that leaves at most this part of its triangles; where several are made, each has so
 /// many times the triangles of the next.
@@ -57,7 +58,9 @@ class BoundTools {
     options_.segmentation.common_price = true;
     for (BestOptions* best : {&options_.best, &options_.automatic.best}) {
       best->energy_limit = std::numeric_limits<double>::infinity();
-      if (!o.tolerance) best->tolerance = std::min(best->tolerance, k_bound_tolerance);
+      if (!o.tolerance)
+        best->tolerance =
+            std::min(best->tolerance, std::max(k_least_tolerance, k_tolerance * (o.max_distortion->most - 4)));
     }
   }
 

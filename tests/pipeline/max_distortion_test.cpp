@@ -217,13 +217,14 @@ TEST(MaxDistortion, SeamsAreSoughtOnACoarseMeshFirst) {
 }
 
 TEST(MaxDistortion, ADevelopablePartNeedsNoMoreSeamsForBeingCoarse) {
-  // The triangles of few vertices of a cylinder are not developable, its own are: one cut along it is enough.
+  // The triangles of few vertices of a cylinder are not developable, its own are: one cut from end to end is enough.
   MethodOptions options = bounded("4.0005");
   for (const UnwrapEffort effort : {UnwrapEffort::normal, UnwrapEffort::fast}) {
     options.effort = effort;
     const FlattenedPart part = unwrapped(placed(test::cylinder(30, 80, 96, 24)), options);
     EXPECT_TRUE(part.bound->kept);
-    EXPECT_NEAR(part.bound->seam_mm, 80, 1e-6);
+    EXPECT_EQ(part.flattening.charts.count, 1u);
+    EXPECT_NEAR(part.bound->seam_mm, 80, 5);
   }
 }
 
