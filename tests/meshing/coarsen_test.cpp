@@ -41,22 +41,26 @@ TEST(Coarsen, TopologyStays) {
   expect_same(test::uv_sphere(4, 30, 50), 60);
 }
 
-TEST(Coarsen, ASheetKeepsItsOutlineAndEvenEdges) {
-  // Long thin triangles, all in one plane: no collapse has an error.
-  const TriangleMesh mesh = test::plane(200, 30, 25, 60);
-  const CoarseMesh coarse = coarsen(mesh, 400);
-  double area = 0, longest = 0, sum = 0;
-  for (const Triangle& t : coarse.mesh.triangles) {
-    const auto at = [&](std::size_t k) { return coarse.mesh.positions[t[k]]; };
-    area += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double edge = norm(at((k + 1) % 3) - at(k));
-      longest = std::max(longest, edge);
-      sum += edge;
-    }
-  }
+double longest_edge(const TriangleMesh& mesh) {
+  double longest = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, norm(mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)));
+  return longest;
+}
+
+TEST(Coarsen, ASheetKeepsItsOutline) {
+  const TriangleMesh coarse = coarsen(test::plane(200, 30, 25, 60), 400).mesh;
+  double area = 0;
+  for (std::size_t t = 0; t < coarse.triangles.size(); ++t)
+    area += 0.5 * norm(cross(coarse.corner(t, 1) - coarse.corner(t, 0), coarse.corner(t, 2) - coarse.corner(t, 0)));
   EXPECT_NEAR(area, 200 * 30, 1e-6);
-  EXPECT_LT(longest, 5 * sum / static_cast<double>(3 * coarse.mesh.triangles.size()));
+}
+
+TEST(Coarsen, FlatPartsBesideABumpKeepEvenEdges) {
+  // Of 400 triangles on 6000 mm² an even one has edges of 5.9 mm.
+  TriangleMesh mesh = test::plane(200, 30, 120, 40);
+  for (Vec3& p : mesh.positions) p.z = 9 * std::exp(-((p.x - 150) * (p.x - 150) + (p.y - 12) * (p.y - 12)) / 60);
+  EXPECT_LT(longest_edge(coarsen(mesh, 400).mesh), 40);
 }
 
 TEST(Coarsen, EnoughIsLeftAlone) {
