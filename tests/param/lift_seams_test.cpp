@@ -105,6 +105,21 @@ TEST(LiftSeams, NeighboursKeepApart) {
   EXPECT_NEAR(fine.length(lifted), 42, 1e-9);
 }
 
+TEST(LiftSeams, NeighboursKeepApartWhereOneWayIsCheap) {
+  const Priced coarse(test::plane(8, 30, 4, 3));
+  Priced fine(test::plane(8, 30, 16, 30));
+  for (Index h = 0; h < fine.costs.size(); ++h) {
+    const Vec3 a = fine.mesh.positions[fine.seams.from(h)], b = fine.mesh.positions[fine.seams.to(h)];
+    if (std::abs(a.x - 4) + std::abs(b.x - 4) < 1e-9) fine.costs[h] *= 0.05;
+  }
+  std::vector<std::uint8_t> seam = coarse.borders();
+  coarse.cut(seam, {4, 0, 0}, {4, 20, 0});
+  coarse.cut(seam, {6, 30, 0}, {6, 10, 0});
+  const std::vector<std::uint8_t> lifted = lift_seams(fine.seams, coarse.seams, places(coarse.mesh, fine.mesh), seam);
+  EXPECT_EQ(fine.tips(lifted), 2u);
+  EXPECT_EQ(charts_between(fine.seams, lifted).count, 1u);
+}
+
 TEST(LiftSeams, WaysOfASphereAreNearlyAsShortAsItsEdgesAllow) {
   const Priced fine(test::uv_sphere(10, 40, 90));
   const CoarseMesh few = coarsen(fine.mesh, 300);
