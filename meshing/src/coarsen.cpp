@@ -10,7 +10,8 @@
 namespace papilla {
 namespace {
 
-/// Of tried 1e-3 to 3 the one that left the shortest seams on scans of 10,000 triangles.
+/// With 1e-3, 0.1 and 1, seams that are sought on such meshes of 1,200 triangles come out alike (within 1 % in the mean
+/// of 52 scans), with 0.1 soonest.
 constexpr double k_length_weight = 0.1;
 
 }  // namespace

@@ -218,6 +218,7 @@ TEST(MaxDistortion, SeamsAreSoughtOnACoarseMeshFirst) {
 
 TEST(MaxDistortion, ADevelopablePartNeedsNoMoreSeamsForBeingCoarse) {
   // The triangles of few vertices of a cylinder are not developable, its own are: one cut from end to end is enough.
+  // Where it ends on the border is sought on the coarse mesh alone.
   MethodOptions options = bounded("4.0005");
   for (const UnwrapEffort effort : {UnwrapEffort::normal, UnwrapEffort::fast}) {
     options.effort = effort;
