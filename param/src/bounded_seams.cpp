@@ -13,8 +13,15 @@ namespace {
 
 using namespace param_detail;
 
-/// Triangles of the maps that a search makes, in those of the part: on the part itself, and with a coarse mesh.
-constexpr double k_usual_maps = 100, k_usual_maps_with_coarse = 30;
+/// Maps that a search usually makes of the mesh that it begins with, and of each finer one.
+constexpr double k_usual_maps = 100, k_usual_maps_of_finer = 10;
+
+/// Of all of them.
+double usual_triangles(const TriangleMesh& mesh, const SeamTools& tools) {
+  const auto triangles = static_cast<double>(mesh.triangles.size());
+  if (!tools.coarse) return k_usual_maps * triangles;
+  return k_usual_maps_of_finer * triangles + usual_triangles(tools.coarse->mesh, tools.coarse->tools);
+}
 
 void check(const DistortionBound& bound) {
   const auto refuse = [](const std::string& what) { throw InvalidInput("keep_bound: " + what); };
@@ -29,8 +36,7 @@ void check(const DistortionBound& bound) {
 BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
                         Deadline deadline, const ProgressCallback& progress) {
   check(bound);
-  const double maps = tools.coarse ? k_usual_maps_with_coarse : k_usual_maps;
-  SeamTrace trace(maps * static_cast<double>(mesh.triangles.size()), progress);
+  SeamTrace trace(usual_triangles(mesh, tools), progress);
   BoundKeeper keeper(mesh, bound, tools, deadline, trace);
   SeamState best = keeper.search();
   BoundedSeams result;

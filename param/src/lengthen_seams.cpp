@@ -36,7 +36,7 @@ class Lengthener {
 
   /// Adds to `seam` what is to release an energy. @return whether anything was added.
   bool extend(const SeamState& state, double energy, std::vector<std::uint8_t>& seam) const {
-    const std::vector<SeamPath> paths = seam_paths(mesh_, state);
+    const std::vector<SeamPath> paths = seam_paths(mesh_, state.seam);
     std::vector<char> blocked = mesh_.on_border;
     for (const SeamPath& path : paths)
       for (const Index h : path.halfedges) blocked[mesh_.from(h)] = blocked[mesh_.to(h)] = 1;

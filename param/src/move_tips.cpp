@@ -18,7 +18,7 @@ constexpr std::size_t k_last_edges = 2;
 constexpr double k_least_saving = 0.01;
 
 std::vector<SeamExchange> other_tips(const SeamMesh& mesh, const OutgoingEdges& edges, const SeamState& state) {
-  const std::vector<SeamPath> paths = seam_paths(mesh, state);
+  const std::vector<SeamPath> paths = seam_paths(mesh, state.seam);
   std::vector<char> on_seam = mesh.on_border;
   for (const SeamPath& path : paths)
     for (const Index h : path.halfedges) on_seam[mesh.from(h)] = on_seam[mesh.to(h)] = 1;

@@ -19,7 +19,7 @@ constexpr double k_least_saving = 0.003;
 class Reconnector {
  public:
   Reconnector(const SeamMesh& mesh, const SeamState& state)
-      : mesh_(mesh), state_(state), paths_(seam_paths(mesh, state)), ways_(mesh) {}
+      : mesh_(mesh), state_(state), paths_(seam_paths(mesh, state.seam)), ways_(mesh) {}
 
   std::vector<SeamExchange> exchanges() {
     std::vector<SeamExchange> all;

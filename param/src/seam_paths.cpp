@@ -9,17 +9,18 @@ namespace {
 /// Seam edges by their vertices.
 class SeamGraph {
  public:
-  SeamGraph(const SeamMesh& mesh, const SeamState& state) : mesh_(mesh), first_(mesh.on_border.size() + 1, 0) {
+  SeamGraph(const SeamMesh& mesh, const std::vector<std::uint8_t>& seam)
+      : mesh_(mesh), first_(mesh.on_border.size() + 1, 0) {
     const auto each = [&](auto visit) {
-      for (Index h = 0; h < state.seam.size(); ++h)
-        if (state.seam[h] && mesh.opposite[h] != k_no_triangle) visit(h);
+      for (Index h = 0; h < seam.size(); ++h)
+        if (seam[h] && mesh.opposite[h] != k_no_triangle) visit(h);
     };
     each([&](Index h) { ++first_[mesh.from(h) + 1]; });
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
     out_.resize(first_.back());
     std::vector<Index> next(first_.begin(), first_.end() - 1);
     each([&](Index h) { out_[next[mesh.from(h)]++] = h; });
-    walked_.assign(state.seam.size(), 0);
+    walked_.assign(seam.size(), 0);
   }
 
   /// Half-edges along seams from a vertex.
@@ -53,8 +54,8 @@ class SeamGraph {
 
 }  // namespace
 
-std::vector<SeamPath> seam_paths(const SeamMesh& mesh, const SeamState& state) {
-  SeamGraph graph(mesh, state);
+std::vector<SeamPath> seam_paths(const SeamMesh& mesh, const std::vector<std::uint8_t>& seam) {
+  SeamGraph graph(mesh, seam);
   std::vector<SeamPath> paths;
   const auto vertices = static_cast<Index>(mesh.on_border.size());
   for (const bool loops : {false, true})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "seam_state.hpp"
@@ -14,6 +15,7 @@ struct SeamPath {
 };
 
 /// All stretches of seam: every seam edge that is no border of the mesh lies on exactly one. Deterministic. O(n).
-std::vector<SeamPath> seam_paths(const SeamMesh& mesh, const SeamState& state);
+/// @param seam per half-edge, as SeamState::seam.
+std::vector<SeamPath> seam_paths(const SeamMesh& mesh, const std::vector<std::uint8_t>& seam);
 
 }  // namespace papilla::param_detail

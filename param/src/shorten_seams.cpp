@@ -62,7 +62,7 @@ class Shortener {
     double share = k_share;
     std::vector<Closing> refused;
     for (int round = 0, failures = 0; round < k_most_rounds && failures < most_failures_ && !deadline_.passed();) {
-      const std::vector<SeamPath> paths = seam_paths(mesh_, state_);
+      const std::vector<SeamPath> paths = seam_paths(mesh_, state_.seam);
       const std::vector<Closing> taken = choose(paths, share * energy_left());
       double saved = 0;
       for (const Closing& c : taken) saved += c.saved;

@@ -59,9 +59,9 @@ class WayFinder {
   std::vector<Index> own_;
 };
 
-std::vector<NewWay> new_ways(const SeamMesh& mesh, const SeamState& state, double most_mm) {
+std::vector<NewWay> new_ways(const SeamMesh& mesh, const std::vector<std::uint8_t>& seam, double most_mm) {
   WayFinder finder(mesh);
-  const std::vector<SeamPath> paths = seam_paths(mesh, state);
+  const std::vector<SeamPath> paths = seam_paths(mesh, seam);
   std::vector<char> blocked = mesh.on_border;
   for (const SeamPath& path : paths)
     for (const Index h : path.halfedges) blocked[mesh.from(h)] = blocked[mesh.to(h)] = 1;
@@ -92,14 +92,13 @@ std::vector<std::uint8_t> with_ways(const SeamMesh& mesh, const std::vector<NewW
 }  // namespace
 
 std::vector<std::uint8_t> straightened(const SeamMesh& mesh, std::vector<std::uint8_t> seam, double most_mm) {
-  SeamState state;
-  state.seam = std::move(seam);
-  return with_ways(mesh, new_ways(mesh, state, most_mm), state.seam);
+  const std::vector<NewWay> ways = new_ways(mesh, seam, most_mm);
+  return with_ways(mesh, ways, std::move(seam));
 }
 
 SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
                            const Deadline& deadline) {
-  std::vector<NewWay> ways = new_ways(mesh, state, std::numeric_limits<double>::infinity());
+  std::vector<NewWay> ways = new_ways(mesh, state.seam, std::numeric_limits<double>::infinity());
   for (int i = 0; i < k_attempts && !ways.empty() && !deadline.passed(); ++i) {
     SeamState next = map(with_ways(mesh, ways, state.seam));
     if (next.valid && next.distortion <= bound.most + k_bound_slack && next.cost_mm < state.cost_mm) return next;

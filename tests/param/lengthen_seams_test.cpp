@@ -87,7 +87,7 @@ TEST_F(SlitHemisphere, OneLongSlitIsExchangedForTwo) {
   const SeamState exchanged = exchange_seams(seams_, start, bound, map_seams, map_seams, {});
   EXPECT_LE(exchanged.distortion, bound.most + k_bound_slack);
   EXPECT_NEAR(exchanged.seam_mm, 0.75 * start.seam_mm, 1e-9);
-  EXPECT_EQ(seam_paths(seams_, exchanged).size(), 1U);
+  EXPECT_EQ(seam_paths(seams_, exchanged.seam).size(), 1U);
 }
 
 TEST_F(SlitHemisphere, WhatHasNoTipIsLeft) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "drawn_seams.hpp"
 #include "papilla/meshing/coarsen.hpp"
 #include "papilla_test/shapes.hpp"
 #include "seam_paths.hpp"
@@ -21,20 +22,8 @@ struct Priced {
   explicit Priced(TriangleMesh of) : mesh(std::move(of)), costs(3 * mesh.triangles.size(), 0), seams(mesh, costs) {
     for (Index h = 0; h < costs.size(); ++h) costs[h] = seams.length(h);
   }
-  std::vector<std::uint8_t> borders() const {
-    std::vector<std::uint8_t> seam;
-    for (const Index opposite : seams.opposite) seam.push_back(opposite == k_no_triangle);
-    return seam;
-  }
-  /// Makes the edges between two points seams that lie on the straight line between these.
-  void cut(std::vector<std::uint8_t>& seam, Vec3 a, Vec3 b) const {
-    const auto is_on = [&](Index v) {
-      const Vec3 p = mesh.positions[v];
-      return std::abs(norm(p - a) + norm(p - b) - norm(b - a)) < 1e-9;
-    };
-    for (Index h = 0; h < seam.size(); ++h)
-      if (is_on(seams.from(h)) && is_on(seams.to(h))) seam[h] = 1;
-  }
+  std::vector<std::uint8_t> borders() const { return test::border_seams(seams); }
+  void cut(std::vector<std::uint8_t>& seam, Vec3 a, Vec3 b) const { test::draw_seam(seams, seam, a, b); }
   double length(const std::vector<std::uint8_t>& seam) const {
     double sum = 0;
     for (Index h = 0; h < seam.size(); ++h)
@@ -42,10 +31,8 @@ struct Priced {
     return sum;
   }
   std::size_t tips(const std::vector<std::uint8_t>& seam) const {
-    SeamState state;
-    state.seam = seam;
     std::size_t count = 0;
-    for (const SeamPath& path : seam_paths(seams, state)) count += path.tip_at_start + path.tip_at_end;
+    for (const SeamPath& path : seam_paths(seams, seam)) count += path.tip_at_start + path.tip_at_end;
     return count;
   }
 

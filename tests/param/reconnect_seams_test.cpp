@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cheapest_ways.hpp"
+#include "drawn_seams.hpp"
 #include "move_tips.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla_test/shapes.hpp"
@@ -58,20 +59,8 @@ class Sheet : public testing::Test {
               mesh_.positions[mesh_.triangles[t][k]].x + 0.02 * std::min(1e3, ways.cost(mesh_.triangles[t][k]));
   }
 
-  /// Makes the edges of a straight line between two points of the grid seams.
-  void cut(std::vector<std::uint8_t>& seam, Vec3 a, Vec3 b) const {
-    const auto is_on = [&](Index v) {
-      const Vec3 p = mesh_.positions[v];
-      return std::abs(norm(p - a) + norm(p - b) - norm(b - a)) < 1e-9;
-    };
-    for (Index h = 0; h < seam.size(); ++h)
-      if (is_on(seams_.from(h)) && is_on(seams_.to(h))) seam[h] = 1;
-  }
-  std::vector<std::uint8_t> borders() const {
-    std::vector<std::uint8_t> seam;
-    for (const Index opposite : seams_.opposite) seam.push_back(opposite == k_no_triangle);
-    return seam;
-  }
+  void cut(std::vector<std::uint8_t>& seam, Vec3 a, Vec3 b) const { test::draw_seam(seams_, seam, a, b); }
+  std::vector<std::uint8_t> borders() const { return test::border_seams(seams_); }
 
   /// Keeps the bound where all seams hang together with the border and `missing` names no half-edge: the energy lies
   /// where these are.

@@ -19,7 +19,7 @@ struct CoarseMesh {
 /// borders, edges of three triangles. Borders are thinned out along their course.
 ///
 /// Good input: welded; vertices at one place count as one. Ends above the target where nothing more can go. Serial,
-/// O(n log n), 1 to 3 us a triangle. Deterministic.
+/// O(n log n), 2 to 3 us a triangle. Deterministic.
 /// @throws InvalidInput when positions are not finite or indices out of range.
 CoarseMesh coarsen(const TriangleMesh& mesh, std::size_t target_triangles);
 
