@@ -18,10 +18,23 @@ struct Connectivity {
   std::vector<Index> whole, open;
 };
 
+Connectivity connect(const TriangleMesh& mesh, const EdgeTable& edges, const ChartSet& charts, const char* function) {
+  return {opposite_halfedges(mesh.triangles, edges), opposite_within_charts(mesh, edges, charts, function)};
+}
+
 Connectivity connect(const TriangleMesh& mesh, const ChartSet& charts, const char* function) {
   check_charts(mesh, charts, function);
-  const EdgeTable edges(mesh.triangles, mesh.positions.size());
-  return {opposite_halfedges(mesh.triangles, edges), opposite_within_charts(mesh, edges, charts, function)};
+  return connect(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), charts, function);
+}
+
+double seam_length(const TriangleMesh& mesh, const Connectivity& connectivity) {
+  double length = 0;
+  for (Index h = 0; h < connectivity.whole.size(); ++h) {
+    const Index other = connectivity.whole[h];
+    if (other == k_none || other < h || connectivity.open[h] != k_none) continue;
+    length += norm(mesh.positions[to_vertex(mesh.triangles, h)] - mesh.positions[from_vertex(mesh.triangles, h)]);
+  }
+  return length;
 }
 
 }  // namespace
@@ -56,14 +69,7 @@ TriangleMesh cut_open(TriangleMesh mesh, const ChartSet& charts) {
 }
 
 double seam_length(const TriangleMesh& mesh, const ChartSet& charts) {
-  const Connectivity connectivity = connect(mesh, charts, "seam_length");
-  double length = 0;
-  for (Index h = 0; h < connectivity.whole.size(); ++h) {
-    const Index other = connectivity.whole[h];
-    if (other == k_none || other < h || connectivity.open[h] != k_none) continue;
-    length += norm(mesh.positions[to_vertex(mesh.triangles, h)] - mesh.positions[from_vertex(mesh.triangles, h)]);
-  }
-  return length;
+  return seam_length(mesh, connect(mesh, charts, "seam_length"));
 }
 
 void keep_cuts(const TriangleMesh& mesh, std::span<const Index> halfedges, ChartSet& charts) {
@@ -76,7 +82,7 @@ void keep_cuts(const TriangleMesh& mesh, std::span<const Index> halfedges, Chart
       throw InvalidInput("keep_cuts: half-edge " + std::to_string(h) + " of " + std::to_string(within.size()));
     if (within[h] != k_none) charts.cuts.push_back(h);
   }
-  charts.seam_length_mm = seam_length(mesh, charts);
+  charts.seam_length_mm = seam_length(mesh, connect(mesh, edges, charts, "keep_cuts"));
 }
 
 }  // namespace papilla

@@ -9,6 +9,7 @@
 
 #include "best_map.hpp"
 #include "chart_solvers.hpp"
+#include "check_mesh.hpp"
 #include "map_descent.hpp"
 #include "papilla/core/error.hpp"
 
@@ -142,6 +143,7 @@ class ChartMapper {
 AutomaticResult flatten_automatic(const TriangleMesh& mesh, const ChartSet& charts, const AutomaticOptions& options) {
   check(options);
   check_best_options(options.best, k_function);
+  if (options.best.nearby) check_uv(mesh, *options.best.nearby, k_function);
   std::vector<MethodChoice> choices(charts.count);
   DriverOptions driver = driver_options(k_function, options.best);
   driver.up = options.up;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "best_map.hpp"
+#include "check_mesh.hpp"
 #include "multilevel_map.hpp"
 #include "papilla/core/error.hpp"
 
@@ -55,6 +56,7 @@ ChartMap param_detail::map_best(const ChartSurface& chart, const BestOptions& op
 
 Flattening flatten_best(const TriangleMesh& mesh, const ChartSet& charts, const BestOptions& options) {
   check_best_options(options, k_function);
+  if (options.nearby) check_uv(mesh, *options.nearby, k_function);
   SharedProgress mapped(options.progress, "map", static_cast<double>(mesh.triangles.size()));
   DriverOptions driver = driver_options(k_function, options);
   driver.unfold = false;

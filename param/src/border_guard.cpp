@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "corners_of_vertices.hpp"
 #include "papilla/core/bounds.hpp"
 
 namespace papilla::param_detail {
@@ -16,6 +17,9 @@ constexpr double k_contact = 1e-3;
 
 /// Reach of the barrier over the shortest edge at hand.
 constexpr double k_reach = 0.25;
+
+/// How hard a vertex and an edge of the border push each other away, in mean areas of a triangle.
+constexpr double k_push = 0.05;
 
 /// Cells of the grid per edge of the border, at most.
 constexpr double k_cells_per_edge = 16;
@@ -235,6 +239,29 @@ bool BorderBarrier::is_simple(std::span<const Vec2> uv) const {
   edges.reserve(border_.size());
   for (const auto& [from, to] : border_) edges.push_back({from, to, uv[from], uv[to]});
   return border_proves_injective(edges);
+}
+
+BorderBarrier barrier_of(std::vector<BorderPair> border, std::span<const Vec2> uv, double area, std::size_t triangles) {
+  return {std::move(border), uv, k_push * area / static_cast<double>(triangles)};
+}
+
+std::vector<BorderPair> border_of(std::span<const Triangle> triangles, std::size_t vertices) {
+  // Around a vertex within, every neighbour comes once before and once after it.
+  std::vector<Index> one_sided(vertices, 0);
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) one_sided[t[k]] += t[(k + 1) % 3] - t[(k + 2) % 3];
+  const CornersOfVertices corners(triangles, vertices);
+  const auto next = [&](Index corner) { return triangles[corner / 3][(corner % 3 + 1) % 3]; };
+  std::vector<BorderPair> border;
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index from = t[k], to = t[(k + 1) % 3];
+      if (one_sided[from] == 0 || one_sided[to] == 0) continue;
+      const auto around = corners.of(to);
+      if (std::none_of(around.begin(), around.end(), [&](Index c) { return next(c) == from; }))
+        border.push_back({from, to});
+    }
+  return border;
 }
 
 }  // namespace papilla::param_detail

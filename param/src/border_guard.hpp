@@ -12,6 +12,9 @@ namespace papilla::param_detail {
 /// A directed edge of a chart's border between two vertices.
 using BorderPair = std::array<Index, 2>;
 
+/// Edges that have no opposite one, in the order of the triangles.
+std::vector<BorderPair> border_of(std::span<const Triangle> triangles, std::size_t vertices);
+
 /// The border of a map while vertices move one by one, and whether it would run into itself.
 class BorderGuard {
  public:
@@ -75,5 +78,8 @@ class BorderBarrier {
   std::vector<double> reach_;  ///< Per vertex.
   double most_reach_ = 0, weight_;
 };
+
+/// The barrier of a map: how hard it pushes goes by the mean area of a triangle.
+BorderBarrier barrier_of(std::vector<BorderPair> border, std::span<const Vec2> uv, double area, std::size_t triangles);
 
 }  // namespace papilla::param_detail

@@ -176,8 +176,8 @@ bool BoundKeeper::leave_same_seams(double low, double high) {
   return a != tries.end() && b != tries.end() && a->second.seam == b->second.seam;
 }
 
-SeamState BoundKeeper::map(const ChartSet& charts, double most_excess_mm2) {
-  ChartedMap charted = tools_.map(charts, most_excess_mm2);
+SeamState BoundKeeper::map(const ChartSet& charts, double most_excess_mm2, const SeamState* nearby) {
+  ChartedMap charted = tools_.map(charts, most_excess_mm2, nearby ? &nearby->charted.flattening.uv : nullptr);
   std::vector<std::uint8_t> without_map;
   if (!charted.flattening.notes.empty()) {
     std::vector<std::uint8_t> fails(charts.count, 0);
@@ -216,7 +216,7 @@ void BoundKeeper::halve() {
   for (int i = 0; i < k_halvings && !deadline_.passed(); ++i) {
     const std::vector<std::uint32_t> worst = worth_halving(state);
     if (worst.empty()) return;
-    state = map(tools_.halve(state.charted.flattening.charts, worst), k_infinity);
+    state = map(tools_.halve(state.charted.flattening.charts, worst), k_infinity, nullptr);
     if (consider(state)) return keep_cheapest();
   }
 }
@@ -245,12 +245,12 @@ void BoundKeeper::keep_cheapest() {
   kept_.clear();
 }
 
-SeamState BoundKeeper::map_seams(const std::vector<std::uint8_t>& seam, bool whole) {
+SeamState BoundKeeper::map_seams(const std::vector<std::uint8_t>& seam, bool whole, const SeamState* nearby) {
   std::vector<bool> key(seam.begin(), seam.end());
   if (const auto before = known_.find(key); before != known_.end() && (before->second.is_whole || !whole))
     return before->second.state;
   const double most = whole || bound_.percentile ? k_infinity : (bound_.most + k_bound_slack - 4) * mesh_.area;
-  Known known{map(charts_between(mesh_, seam), most), most == k_infinity};
+  Known known{map(charts_between(mesh_, seam), most, nearby), most == k_infinity};
   trace_.add(mesh_, known.state);
   SeamState state = known.state;
   if (!known.is_whole) {

@@ -36,8 +36,8 @@ class BoundKeeper {
   std::optional<SeamState> finished(SeamState state);
 
   /// A map of seams, made once as long as it is remembered, and again where it was left unfinished and is wanted whole.
-  /// @param whole also where it is of no use as it breaks the bound.
-  SeamState map_seams(const std::vector<std::uint8_t>& seam, bool whole);
+  /// @param whole also where it is of no use as it breaks the bound. @param nearby given: with its uv.
+  SeamState map_seams(const std::vector<std::uint8_t>& seam, bool whole, const SeamState* nearby = nullptr);
 
   bool keeps(const SeamState& state) const { return state.distortion <= bound_.most + k_bound_slack; }
   const SeamMesh& mesh() const { return mesh_; }
@@ -59,7 +59,7 @@ class BoundKeeper {
   bool is_same_without_features();
   void search_cost();
   bool leave_same_seams(double low, double high);
-  SeamState map(const ChartSet& charts, double most_excess_mm2);
+  SeamState map(const ChartSet& charts, double most_excess_mm2, const SeamState* nearby);
   std::vector<std::uint32_t> worth_halving(const SeamState& state) const;
   void halve();
   void lengthen();
@@ -85,8 +85,10 @@ class BoundKeeper {
   std::map<bool, Tries> tried_;                         ///< Without seams along features, and with.
   std::unordered_map<std::vector<bool>, Known> known_;  ///< By their seams.
   std::size_t remembered_ = 0;                          ///< Triangles of known_.
-  const MapSeams map_ = [this](const std::vector<std::uint8_t>& seam) { return map_seams(seam, false); };
-  const MapSeams map_fully_ = [this](const std::vector<std::uint8_t>& seam) { return map_seams(seam, true); };
+  const MapSeams map_ = [this](const auto& seam, const SeamState& nearby) { return map_seams(seam, false, &nearby); };
+  const MapSeams map_fully_ = [this](const auto& seam, const SeamState& nearby) {
+    return map_seams(seam, true, &nearby);
+  };
 };
 
 }  // namespace papilla::param_detail

@@ -81,6 +81,16 @@ void project_instead(const ChartSurface& chart, const DriverOptions& options, Ma
   result.instead = "projected as " + std::to_string(result.piece_count) + " planar pieces instead";
 }
 
+std::vector<std::array<Vec2, 3>> corners_of(const CornerAttribute<Vec2>& uv, std::span<const Index> triangles) {
+  std::vector<std::array<Vec2, 3>> corners;
+  corners.reserve(triangles.size());
+  for (const Index t : triangles) {
+    const auto [a, b, c] = uv.indices[t];
+    corners.push_back({uv.values[a], uv.values[b], uv.values[c]});
+  }
+  return corners;
+}
+
 void append(const MappedChart& chart, std::span<const Index> triangles, Flattening& result) {
   const auto first_value = static_cast<Index>(result.uv.values.size());
   result.uv.values.insert(result.uv.values.end(), chart.uv.values.begin(), chart.uv.values.end());
@@ -134,11 +144,12 @@ Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, cons
   std::vector<MappedChart> mapped(charts.count);
   oneapi::tbb::parallel_for(std::uint32_t{0}, charts.count, [&](std::uint32_t c) {
     if (members.of(c).empty()) return;
-    const ChartSurface surface = cutter.cut(c, members.of(c));
+    ChartSurface surface = cutter.cut(c, members.of(c));
     if (options.memory && options.memory->maps().recall(members.of(c), surface, options.energy_limit, mapped[c])) {
       if (options.choices) (*options.choices)[c] = mapped[c].choice;
       return;
     }
+    if (options.nearby) surface.nearby = corners_of(*options.nearby, members.of(c));
     mapped[c] = map_chart(surface, method, options);
     if (options.choices) (*options.choices)[c] = mapped[c].choice;
     if (mapped[c].failure.empty() || !options.fall_back) return;

@@ -47,8 +47,9 @@ struct DriverOptions {
   /// What trace errors are divided by: the charts' area, or 1.
   bool error_per_area = true;
   TriplanarOptions projection;
-  Deadline deadline;              ///< Charts not begun by then are projected when fall_back.
-  ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
+  Deadline deadline;                              ///< Charts not begun by then are projected when fall_back.
+  ChartMemory* memory = nullptr;                  ///< Charts that it has are not mapped again.
+  const CornerAttribute<Vec2>* nearby = nullptr;  ///< Given: becomes ChartSurface::nearby.
   double energy_limit = std::numeric_limits<double>::infinity();  ///< Of the mean energy of a map that memory has.
   std::vector<MethodChoice>* choices = nullptr;  ///< Filled per chart when given; its size is that of the chart set.
 };
@@ -63,6 +64,7 @@ DriverOptions driver_options(std::string_view function, const Options& options) 
   driver.projection = options.projection;
   driver.deadline = options.deadline;
   driver.memory = options.memory;
+  if constexpr (requires { options.nearby; }) driver.nearby = options.nearby;
   if constexpr (requires { options.energy_limit; }) driver.energy_limit = options.energy_limit;
   return driver;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,6 +31,8 @@ struct ChartSurface {
   Values<Vec3> positions;
   Values<Triangle> triangles;    ///< In the order of the chart's triangle list.
   std::vector<Triangle> across;  ///< Neighbour numbers within the chart, or k_no_triangle.
+  /// The uv that each triangle has in another map, which may be cut in another way; empty: none is known.
+  std::vector<std::array<Vec2, 3>> nearby;
 };
 
 /// Cuts charts out of one mesh; holds scratch memory of one entry per mesh triangle.

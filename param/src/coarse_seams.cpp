@@ -73,7 +73,8 @@ class CoarseSearch {
 
   /// @return whether it has a map on the fine mesh.
   bool lift(const SeamState& state) {
-    SeamState fine = fine_.map_seams(lift_seams(fine_.mesh(), coarse_.mesh(), vertices_, state.seam), true);
+    SeamState fine = fine_.map_seams(lift_seams(fine_.mesh(), coarse_.mesh(), vertices_, state.seam), true,
+                                     lifted_.empty() ? nullptr : &lifted_.back());
     if (!fine.valid) return false;
     lifted_.push_back(std::move(fine));
     return true;

@@ -159,6 +159,8 @@ UnitChart to_unit(const ChartSurface& chart) {
   if (area > 0) unit.scale = 1 / std::sqrt(area);
   const Vec3 origin = chart.positions.front();
   for (Vec3& p : unit.surface.positions) p = unit.scale * (p - origin);
+  for (auto& corners : unit.surface.nearby)
+    for (Vec2& p : corners) p = unit.scale * p;
   return unit;
 }
 

@@ -122,7 +122,7 @@ std::optional<SeamState> lengthen_seams(const SeamMesh& mesh, SeamState state, c
     const double missing = (1 - (bound.most - 4) / (state.distortion - 4)) * state.energy;
     std::vector<std::uint8_t> seam = state.seam;
     if (!lengthener.extend(state, over * k_more * missing, seam)) return {};
-    SeamState next = map(seam);
+    SeamState next = map(seam, state);
     if (!next.valid || !(next.distortion < state.distortion)) return {};
     if (next.distortion <= bound.most + k_bound_slack) return next;
     over = std::clamp(over * k_more * missing / (state.energy - next.energy), 1.0, k_most_over);

@@ -11,26 +11,6 @@
 namespace papilla::param_detail {
 namespace {
 
-/// Edges that have no opposite one, in the order of the triangles.
-std::vector<BorderPair> border_of(const MapLevel& level) {
-  // Around a vertex within, every neighbour comes once before and once after it.
-  std::vector<Index> one_sided(level.vertices.size(), 0);
-  for (const Triangle& t : level.triangles)
-    for (std::size_t k = 0; k < 3; ++k) one_sided[t[k]] += t[(k + 1) % 3] - t[(k + 2) % 3];
-  const CornersOfVertices corners(level.triangles, level.vertices.size());
-  const auto next = [&](Index corner) { return level.triangles[corner / 3][(corner % 3 + 1) % 3]; };
-  std::vector<BorderPair> border;
-  for (const Triangle& t : level.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index from = t[k], to = t[(k + 1) % 3];
-      if (one_sided[from] == 0 || one_sided[to] == 0) continue;
-      const auto around = corners.of(to);
-      if (std::none_of(around.begin(), around.end(), [&](Index c) { return next(c) == from; }))
-        border.push_back({from, to});
-    }
-  return border;
-}
-
 void view_from(Index v, const MapLevel& level, const CornersOfVertices& corners, std::vector<CornerView>& ring) {
   ring.clear();
   const Vec2 at = level.uv[v];
@@ -80,7 +60,7 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
       if (level.rest[t].area > own[t].area) level.slivers.push_back({t, own[t]});
   }
   for (const RestShape& rest : level.rest) level.area += rest.area;
-  level.border = border_of(level);
+  level.border = border_of(level.triangles, level.vertices.size());
   return level;
 }
 

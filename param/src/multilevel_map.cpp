@@ -15,6 +15,7 @@
 #include "convex_map.hpp"
 #include "map_descent.hpp"
 #include "map_level.hpp"
+#include "nearby_map.hpp"
 #include "papilla/core/bounds.hpp"
 #include "tube_map.hpp"
 #include "vertex_step.hpp"
@@ -79,9 +80,6 @@ constexpr int k_fine_sweeps = 30;
 
 /// A level whose energy per area is this much of that of the level before, at most, counts as smooth.
 constexpr double k_smooth = 1.01;
-
-/// How hard a vertex and an edge of the border push each other away, in mean areas of a triangle.
-constexpr double k_push = 0.05;
 
 /// A triangle of a vertex that comes back into a map: the edge opposite to the vertex, and the shape of
 /// (vertex, from, to).
@@ -407,7 +405,7 @@ class Multilevel {
   bool is_deep() const { return mean_energy_ > k_deep_energy; }
 
   static BorderBarrier make_barrier(const MapLevel& level) {
-    return {level.border, level.uv, k_push * level.area / static_cast<double>(level.triangles.size())};
+    return barrier_of(level.border, level.uv, level.area, level.triangles.size());
   }
 
   static bool is_simple(const MapLevel& level) { return make_barrier(level).is_simple(level.uv); }
@@ -554,9 +552,14 @@ class Multilevel {
 }  // namespace
 
 MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options) {
-  Multilevel multilevel(chart, options);
-  multilevel.run();
-  MultilevelMap map = multilevel.result();
+  const auto from_nothing = [&] {
+    Multilevel multilevel(chart, options);
+    multilevel.run();
+    return multilevel.result();
+  };
+  std::optional<MultilevelMap> nearby;
+  if (!chart.nearby.empty()) nearby = map_nearby(chart, options);
+  MultilevelMap map = nearby ? std::move(*nearby) : from_nothing();
   if (map.failure.empty() && !map.trace.empty() && map.trace.back().error > options.energy_limit)
     map.failure = "its mean symmetric Dirichlet energy is " + std::to_string(map.trace.back().error);
   return map;

@@ -34,7 +34,7 @@ SeamState take_exchanges(const SeamMesh& mesh, SeamState state, const Distortion
     std::vector<std::uint8_t> seam = state.seam;
     for (const Index h : exchange.before) seam[h] = seam[mesh.opposite[h]] = 0;
     for (const Index h : exchange.after) seam[h] = seam[mesh.opposite[h]] = 1;
-    std::optional<SeamState> next = map_fully(seam);
+    std::optional<SeamState> next = map_fully(seam, state);
     const double over = (next->distortion - 4) / (bound.most - 4);
     if (!next->valid || over > k_near) return {};
     if (over > 1 && !(next->cost_mm * std::pow(over, k_least_growth) < state.cost_mm)) return {};

@@ -241,7 +241,7 @@ class Shortener {
         const Index h = paths[c.path].halfedges[i];
         seam[h] = seam[mesh_.opposite[h]] = 0;
       }
-    return map_(seam);
+    return map_(seam, state_);
   }
 
   /// Compares what the energy rose by around every closing with what was foreseen.

@@ -100,7 +100,7 @@ SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const Distorti
                            const Deadline& deadline) {
   std::vector<NewWay> ways = new_ways(mesh, state.seam, std::numeric_limits<double>::infinity());
   for (int i = 0; i < k_attempts && !ways.empty() && !deadline.passed(); ++i) {
-    SeamState next = map(with_ways(mesh, ways, state.seam));
+    SeamState next = map(with_ways(mesh, ways, state.seam), state);
     if (next.valid && next.distortion <= bound.most + k_bound_slack && next.cost_mm < state.cost_mm) return next;
     std::vector<std::vector<Index>> places;
     for (const NewWay& way : ways) {

@@ -72,10 +72,11 @@ class BoundTools {
       options_.segmentation.seam_cost = seam_cost;
       return charted(chart_and_map(mesh, options_, context_, memory, part_));
     };
-    tools.map = [&](const ChartSet& charts, double most_excess_mm2) {
+    tools.map = [&](const ChartSet& charts, double most_excess_mm2, const CornerAttribute<Vec2>* nearby) {
       part_.choices.clear();
       MethodOptions tried = options_;
       tried.best.give_up_excess_mm2 = tried.automatic.best.give_up_excess_mm2 = most_excess_mm2;
+      tried.best.nearby = tried.automatic.best.nearby = nearby;
       return charted(map_or_halve(mesh, charts, std::move(tried), 0, memory, part_.choices));
     };
     tools.halve = [&](const ChartSet& charts, std::span<const std::uint32_t> numbers) {

@@ -55,7 +55,7 @@ SeamTools plate_tools(const TriangleMesh& mesh, int& maps) {
     return charted;
   };
   SeamTools tools;
-  tools.map = [map](const ChartSet& charts, double) { return map(charts); };
+  tools.map = [map](const ChartSet& charts, double, const CornerAttribute<Vec2>*) { return map(charts); };
   tools.chart = [&mesh, map](double, bool along_features) {
     ChartSet charts;
     charts.count = 2;
@@ -87,14 +87,14 @@ TEST(BoundedSeams, WhatBrokeTheBoundIsNotMappedAgain) {
   SeamTools tools = plate_tools(mesh, maps);  // Of two cuts: without, both leave the same.
   const auto map = tools.map;
   std::vector<ChartSet> tried;
-  tools.map = [&](const ChartSet& charts, double most_excess_mm2) {
+  tools.map = [&](const ChartSet& charts, double most_excess_mm2, const CornerAttribute<Vec2>* nearby) {
     if (std::isfinite(most_excess_mm2)) {  // Else its uv are needed, too.
       EXPECT_NEAR(most_excess_mm2, 0.05 * 400, 1e-3);
       for (const ChartSet& before : tried)
         EXPECT_FALSE(before.of_triangle == charts.of_triangle && before.cuts == charts.cuts);
       tried.push_back(charts);
     }
-    ChartedMap charted = map(charts, most_excess_mm2);
+    ChartedMap charted = map(charts, most_excess_mm2, nearby);
     if (charts.count == 1)
       for (Vec2& p : charted.flattening.uv.values) p.y *= 2;
     return charted;

@@ -58,7 +58,8 @@ TEST_F(SlitHemisphere, RunsOnAlongItsMeridianUntilTheBoundIsKept) {
   ASSERT_LT(high.distortion, low.distortion);
   const DistortionBound bound{0.5 * (low.distortion + high.distortion), {}};
   int maps = 0;
-  const auto state = lengthen_seams(seams_, low, bound, [&](const auto& seam) { return ++maps, map(seam, bound); }, {});
+  const auto state = lengthen_seams(seams_, low, bound,
+                                    [&](const auto& seam, const SeamState&) { return ++maps, map(seam, bound); }, {});
   ASSERT_TRUE(state);
   EXPECT_LE(state->distortion, bound.most);
   EXPECT_GT(state->seam_mm, low.seam_mm);
@@ -81,7 +82,7 @@ TEST_F(SlitHemisphere, OneLongSlitIsExchangedForTwo) {
       seam[h] = 1;
   const SeamState start = map(seam, {});
   const DistortionBound bound{start.distortion, {}};
-  const MapSeams map_seams = [&](const auto& tried) { return map(tried, bound); };
+  const MapSeams map_seams = [&](const auto& tried, const SeamState&) { return map(tried, bound); };
   std::vector<double> doubt(seam.size(), 1);
   EXPECT_EQ(shorten_seams(seams_, start, bound, map_seams, doubt, {}).seam_mm, start.seam_mm);
   const SeamState exchanged = exchange_seams(seams_, start, bound, map_seams, map_seams, {});
@@ -95,7 +96,8 @@ TEST_F(SlitHemisphere, WhatHasNoTipIsLeft) {
   int maps = 0;
   const SeamState whole = map(slit(-1), bound);
   EXPECT_EQ(whole.seam_mm, 0);
-  EXPECT_FALSE(lengthen_seams(seams_, whole, bound, [&](const auto& seam) { return ++maps, map(seam, bound); }, {}));
+  EXPECT_FALSE(lengthen_seams(seams_, whole, bound,
+                              [&](const auto& seam, const SeamState&) { return ++maps, map(seam, bound); }, {}));
   EXPECT_EQ(maps, 0);
 }
 

@@ -88,7 +88,7 @@ class Sheet : public testing::Test {
 
   /// Keeps the bound where these are seams.
   MapSeams map_that_needs(const std::vector<std::uint8_t>& needed) const {
-    return [this, needed](const std::vector<std::uint8_t>& seam) {
+    return [this, needed](const std::vector<std::uint8_t>& seam, const SeamState&) {
       return map(seam, [&](const std::vector<std::uint8_t>& tried) {
         std::vector<Index> missing;
         for (Index h = 0; h < needed.size(); ++h)
@@ -100,7 +100,7 @@ class Sheet : public testing::Test {
 
   /// Keeps the bound where a seam reaches this row.
   MapSeams map_that_ends_in(double row) const {
-    return [this, row](const std::vector<std::uint8_t>& seam) {
+    return [this, row](const std::vector<std::uint8_t>& seam, const SeamState&) {
       return map(seam, [&](const std::vector<std::uint8_t>& tried) {
         for (Index h = 0; h < tried.size(); ++h)
           if (tried[h] && seams_.opposite[h] != k_no_triangle && is_in_row(seams_.to(h), row))
@@ -149,7 +149,7 @@ TEST_F(Sheet, ASlitIsJoinedToTheNearestBorder) {
   seam = needed;
   cut(seam, at(3, 0), at(3, 5));
   const MapSeams map_seams = map_that_needs(needed);
-  const SeamState start = map_seams(seam);
+  const SeamState start = map_seams(seam, {});
   ASSERT_NEAR(start.seam_mm, 5 + 5 * k_high, 1e-9);
   ASSERT_EQ(start.distortion, 4.05);
   std::vector<double> doubt(seam.size(), 1);
@@ -169,7 +169,7 @@ TEST_F(Sheet, TwoSlitsThatAreBridgedAreJoinedToTheBorderEach) {
   cut(seam, at(0, 4), at(2, 4));
   cut(seam, at(2, 3), at(4, 3));
   const MapSeams map_seams = map_that_needs(needed);
-  const SeamState start = map_seams(seam);
+  const SeamState start = map_seams(seam, {});
   ASSERT_NEAR(start.seam_mm, 2 * 3 * k_high + 4, 1e-9);
   const SeamState result = reconnect_seams(seams_, start, {}, map_seams, map_seams, {});
   EXPECT_NEAR(result.seam_mm, 2 * 3 * k_high + 2 * 2 * k_high, 1e-9);
@@ -191,7 +191,7 @@ TEST_F(Sheet, ASlitIsJoinedToTheSeamThatLedToIt) {
     cut(seam, place(9, 1), place(9, 3));
     cut(seam, place(9, 3), place(5, 3));
     const MapSeams map_seams = map_that_needs(needed);
-    const SeamState start = map_seams(seam);
+    const SeamState start = map_seams(seam, {});
     ASSERT_EQ(start.distortion, 4.05);
     ASSERT_NEAR(start.seam_mm, 13 + 4 * k_high, 1e-9);
     const SeamState result = reconnect_seams(seams_, start, {}, map_seams, map_seams, {});
@@ -204,7 +204,7 @@ TEST_F(Sheet, WhatBreaksTheBoundIsLeft) {
   cut(seam, at(3, 0), at(3, 5));
   cut(seam, at(3, 5), at(8, 5));
   const MapSeams map_seams = map_that_needs(seam);
-  const SeamState result = reconnect_seams(seams_, map_seams(seam), {}, map_seams, map_seams, {});
+  const SeamState result = reconnect_seams(seams_, map_seams(seam, {}), {}, map_seams, map_seams, {});
   EXPECT_EQ(result.seam, seam);
 }
 
@@ -213,10 +213,10 @@ TEST_F(Sheet, MapsThatTurnTrianglesOverAreRefused) {
   std::vector<std::uint8_t> seam = borders();
   cut(seam, at(3, 0), at(3, 5));
   const MapSeams map_seams = map_that_needs(borders());
-  const SeamState start = map_seams(seam);
+  const SeamState start = map_seams(seam, {});
   ASSERT_TRUE(start.valid);
-  const MapSeams turned = [&](const std::vector<std::uint8_t>& tried) {
-    SeamState state = map_seams(tried);
+  const MapSeams turned = [&](const std::vector<std::uint8_t>& tried, const SeamState& nearby) {
+    SeamState state = map_seams(tried, nearby);
     state.valid = false;
     state.distortion = std::numeric_limits<double>::infinity();
     state.excess[0] = 1e12;
@@ -240,7 +240,7 @@ TEST_F(Sheet, ATipMovesToTheCheaperOfTwoVertices) {
     ASSERT_GT(seams_.length(diagonal), 1.2);
     seam[diagonal] = seam[seams_.opposite[diagonal]] = 1;
     const MapSeams map_seams = map_that_ends_in(row(3));
-    const SeamState start = map_seams(seam);
+    const SeamState start = map_seams(seam, {});
     ASSERT_EQ(start.distortion, 4.05);
     const SeamState result = move_tips(seams_, start, {}, map_seams, map_seams, {});
     EXPECT_NEAR(result.seam_mm, 3 * k_high, 1e-9) << from_above;
@@ -255,7 +255,7 @@ TEST_F(Sheet, ATipMovesByTwoEdgesWhereOneSavesNothing) {
   cut(seam, at(3, 2), at(4, 2));
   cut(seam, at(4, 2), at(4, 3));
   const MapSeams map_seams = map_that_ends_in(3);
-  const SeamState start = map_seams(seam);
+  const SeamState start = map_seams(seam, {});
   ASSERT_EQ(start.distortion, 4.05);
   ASSERT_NEAR(start.seam_mm, 3 * k_high + 1, 1e-9);
   EXPECT_NEAR(move_tips(seams_, start, {}, map_seams, map_seams, {}).seam_mm, 3 * k_high, 1e-9);

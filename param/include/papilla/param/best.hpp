@@ -24,6 +24,9 @@ struct BestOptions {
   ProgressCallback progress;      ///< Told the fraction of the triangles that are mapped; may be empty.
   Deadline deadline;              ///< Charts that have no map by then are projected, the others are left as they are.
   ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
+  /// Another map of the same triangles, with other cuts: charts begin there where that leads to a valid map. For
+  /// callers that try one cut after the other. Not given: every chart begins with itself.
+  const CornerAttribute<Vec2>* nearby = nullptr;
   /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.
   double energy_limit = std::numeric_limits<double>::infinity();
   /// A chart whose E - 4 ΣA [mm²] will hardly come below this is left unfinished: above it, perhaps overlapping itself.
@@ -58,10 +61,13 @@ struct BestOptions {
 /// map; one with a single end (a finger, a bag) begins as a tube instead, on its finest level: its wall goes to a
 /// cylinder by harmonic weights, its rings to circles of the area inside them, whose scales are then set by Newton
 /// steps. From the first level on whose border runs into itself, a barrier between the edges of the border keeps it
-/// apart; where vertices find no room then, the map begins again from an earlier level or a finer base. Cost: O(n) for
-/// coarsening and relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the factorization and
-/// sums run in parallel; the result does not depend on the number of threads. Trace: error = E / ΣA, from the first map
-/// of the whole chart on. Papers: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M.
+/// apart; where vertices find no room then, the map begins again from an earlier level or a finer base. With `nearby`
+/// Newton's steps begin at that map instead: where seams are closed, the triangles around are put together as rigidly
+/// as they go (O. Sorkine, M. Alexa, 2007), where they are opened, their sides are drawn apart, and the border is kept
+/// apart from the first step on. Such a chart may end in another local optimum, better more often than not. Cost: O(n)
+/// for coarsening and relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the factorization
+/// and sums run in parallel; the result does not depend on the number of threads. Trace: error = E / ΣA, from the first
+/// map of the whole chart on. Papers: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M.
 /// Rabinovich et al., Scalable locally injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith
 /// et al., Analytic eigensystems for isotropic distortion energies, 2019.
 ///

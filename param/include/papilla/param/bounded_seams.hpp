@@ -40,8 +40,9 @@ struct SeamTools {
   /// Throws Cancelled when the deadline ends it.
   std::function<ChartedMap(double seam_cost, bool feature_seams)> chart;
   /// The map of given charts; notes where one has none. It is of no use where Σ A (e - 4) is more than
-  /// `most_excess_mm2` in a chart: that may then be mapped in any way in which it is.
-  std::function<ChartedMap(const ChartSet&, double most_excess_mm2)> map;
+  /// `most_excess_mm2` in a chart: that may then be mapped in any way in which it is. `nearby` is a map with much the
+  /// same charts, from which this one may begin, or null.
+  std::function<ChartedMap(const ChartSet&, double most_excess_mm2, const CornerAttribute<Vec2>* nearby)> map;
   /// Charts with the named ones cut in two.
   std::function<ChartSet(const ChartSet&, std::span<const std::uint32_t>)> halve;
   std::vector<double> seam_costs;         ///< Per half-edge 3 t + k: what a seam there counts [mm]; not negative.
@@ -94,7 +95,7 @@ inline constexpr double k_bound_slack = 1e-6;
 /// it, stretches without which the seams would fall into two pieces are exchanged for the cheapest way between these
 /// (key-path exchange, [Voß 1992]). 5. It is brought away from the bound and back, its slits end at other vertices, and
 /// 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but those whose map was
-/// left unfinished and is wanted whole.
+/// left unfinished and is wanted whole; a map may begin at that of the seams that it was made of.
 ///
 /// With `coarse`, all that is done on the coarse mesh, for a bound under which the fine map of the same seams comes out
 /// at the one that is asked for: found from the ratio of their D - 4, once when first seams are short and up to four

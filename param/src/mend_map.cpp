@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "mend_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "border_guard.hpp"
+#include "sheet_overlap.hpp"
+
+namespace papilla::param_detail {
+namespace {
+
+/// As often vertices are moved, and by which part of the way: where the border meets itself, and where triangles are
+/// turned over.
+constexpr int k_rounds = 12;
+constexpr double k_drawn = 0.2, k_unfolded = 0.5;
+
+class Mender {
+ public:
+  Mender(const ChartSurface& chart, const CornersOfVertices& corners, std::vector<Vec2>& uv)
+      : chart_(chart), corners_(corners), uv_(uv), on_border_(uv.size(), 0) {
+    for (const auto& [from, to] : border_of(chart.triangles, uv.size())) {
+      border_.push_back({from, to, {}, {}});
+      on_border_[from] = 1;
+    }
+  }
+
+  bool run() {
+    for (int round = 0;; ++round) {
+      const std::vector<Index> turned_over = corners_turned_over();
+      const std::vector<Index> meeting = turned_over.empty() ? border_that_meets() : std::vector<Index>{};
+      if (turned_over.empty() && meeting.empty()) return true;
+      if (round == k_rounds) return false;
+      if (meeting.empty())
+        move(turned_over, k_unfolded, [&](Index v) { return on_border_[v] ? by_shapes(v) : middle_around(v); });
+      else
+        move(meeting, k_drawn, [&](Index v) { return middle_around(v); });
+    }
+  }
+
+ private:
+  template <class Place>
+  void move(const std::vector<Index>& vertices, double part, const Place& place) {
+    std::vector<Vec2> places;
+    for (const Index v : vertices) places.push_back(uv_[v] + part * (place(v) - uv_[v]));
+    for (std::size_t i = 0; i < vertices.size(); ++i) uv_[vertices[i]] = places[i];
+  }
+
+  std::vector<Index> corners_turned_over() const {
+    std::vector<Index> corners;
+    for (const Triangle& t : chart_.triangles)
+      if (!(cross(uv_[t[1]] - uv_[t[0]], uv_[t[2]] - uv_[t[0]]) > 0)) corners.insert(corners.end(), t.begin(), t.end());
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
+  }
+
+  std::vector<Index> border_that_meets() {
+    for (BorderEdge& edge : border_) edge.a = uv_[edge.from], edge.b = uv_[edge.to];
+    return points_that_meet(border_);
+  }
+
+  Vec2 middle_around(Index v) const {
+    const auto corners = corners_.of(v);
+    Vec2 sum;
+    for (const Index c : corners)
+      for (const Index k : {1, 2}) sum = sum + uv_[chart_.triangles[c / 3][(c % 3 + k) % 3]];
+    return (0.5 / static_cast<double>(corners.size())) * sum;
+  }
+
+  /// Where the triangles around a vertex would have it, of the shape that they have in space, at the edges opposite to
+  /// it.
+  Vec2 by_shapes(Index v) const {
+    const auto corners = corners_.of(v);
+    Vec2 sum;
+    for (const Index c : corners) {
+      const Triangle& t = chart_.triangles[c / 3];
+      const Index a = t[(c % 3 + 1) % 3], b = t[(c % 3 + 2) % 3];
+      const Vec3 edge = chart_.positions[b] - chart_.positions[a], out = chart_.positions[v] - chart_.positions[a];
+      const double square = dot(edge, edge);
+      const Vec2 image = uv_[b] - uv_[a];
+      sum = sum + uv_[a];
+      if (square > 0)
+        sum = sum + (dot(out, edge) / square) * image + (norm(cross(out, edge)) / square) * Vec2{-image.y, image.x};
+    }
+    return (1 / static_cast<double>(corners.size())) * sum;
+  }
+
+  const ChartSurface& chart_;
+  const CornersOfVertices& corners_;
+  std::vector<Vec2>& uv_;
+  std::vector<BorderEdge> border_;
+  std::vector<char> on_border_;  ///< Per vertex.
+};
+
+}  // namespace
+
+bool mend_map(const ChartSurface& chart, const CornersOfVertices& corners, std::vector<Vec2>& uv) {
+  return Mender(chart, corners, uv).run();
+}
+
+}  // namespace papilla::param_detail

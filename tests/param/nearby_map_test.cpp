@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "drawn_seams.hpp"
+#include "mend_map.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/meshing/cut_open.hpp"
+#include "papilla/param/automatic.hpp"
+#include "papilla/param/best.hpp"
+#include "papilla/param/measure.hpp"
+#include "papilla_test/shapes.hpp"
+#include "place_rigidly.hpp"
+#include "sheet_overlap.hpp"
+#include "support/formula_meshes.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace param_detail;
+
+constexpr double k_pi = std::numbers::pi;
+
+/// Energies are compared at minima.
+BestOptions exact() {
+  BestOptions options;
+  options.tolerance = 1e-9;
+  return options;
+}
+
+/// A bowl, and a slit in it along y = 0 from the border to some way from the pole.
+struct Bowl {
+  TriangleMesh mesh = test::hemisphere_mesh(20, 48, 100);
+  ChartSet whole = test::one_chart(mesh);
+  ChartSet slit(double least_x) const {
+    const auto on_slit = [&](Vec3 p) { return std::abs(p.y) < 1e-6 && p.x > least_x; };
+    ChartSet charts = test::one_chart(mesh);
+    for (Index h = 0; h < 3 * mesh.triangles.size(); ++h) {
+      const Triangle& t = mesh.triangles[h / 3];
+      const Vec3 a = mesh.positions[t[h % 3]], b = mesh.positions[t[(h % 3 + 1) % 3]];
+      if (on_slit(a) && on_slit(b) && a.x < b.x) charts.cuts.push_back(h);
+    }
+    EXPECT_FALSE(charts.cuts.empty());
+    return charts;
+  }
+};
+
+Flattening flatten(const TriangleMesh& mesh, const ChartSet& charts, const BestOptions& options) {
+  Flattening f = flatten_best(cut_open(mesh, charts), charts, options);
+  EXPECT_TRUE(f.notes.empty());
+  const DistortionReport r = measure_distortion(cut_open(mesh, charts), f.uv);
+  EXPECT_EQ(r.flipped, 0u);
+  EXPECT_EQ(r.overlap_within_charts, 0);
+  return f;
+}
+
+/// From the map of one cut to that of another: the same minimum as from nothing, in fewer steps.
+void expect_same_minimum(const TriangleMesh& mesh, const ChartSet& from, const ChartSet& to) {
+  BestOptions options = exact();
+  const Flattening before = flatten(mesh, from, options), cold = flatten(mesh, to, options);
+  options.nearby = &before.uv;
+  const Flattening warm = flatten(mesh, to, options);
+  const double energy = cold.trace.back().error;
+  EXPECT_NEAR(warm.trace.back().error, energy, 1e-5 * energy);
+  EXPECT_NE(warm.uv.values, cold.uv.values) << "it began elsewhere";
+  EXPECT_LT(warm.trace.front().error, 1.3 * energy) << "it began nearby";
+}
+
+TEST(Nearby, ASlitIsOpened) {
+  const Bowl bowl;
+  expect_same_minimum(bowl.mesh, bowl.whole, bowl.slit(50));
+  expect_same_minimum(bowl.mesh, bowl.slit(60), bowl.slit(30));
+}
+
+TEST(Nearby, ASlitIsClosed) {
+  const Bowl bowl;
+  expect_same_minimum(bowl.mesh, bowl.slit(70), bowl.whole);
+  expect_same_minimum(bowl.mesh, bowl.slit(30), bowl.slit(50));
+}
+
+TEST(Nearby, ChartsAreJoined) {
+  // Three strips of a dashboard, mapped each in its own place.
+  const TriangleMesh mesh = test::dashboard_mesh(28, 12);
+  ChartSet strips;
+  strips.count = 3;
+  for (const Triangle& t : mesh.triangles) {
+    double x = 0;
+    for (const Index v : t) x += mesh.positions[v].x / 3;
+    strips.of_triangle.push_back(x < 400 ? 0 : x < 900 ? 1 : 2);
+  }
+  expect_same_minimum(mesh, strips, test::one_chart(mesh));
+}
+
+TEST(Nearby, WhatIsNotNearbyIsOfNoConsequence) {
+  const Bowl bowl;
+  const Flattening cold = flatten_best(bowl.mesh, bowl.whole);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-100, 100);
+  CornerAttribute<Vec2> uv{{}, bowl.mesh.triangles};
+  for (std::size_t v = 0; v < bowl.mesh.positions.size(); ++v) uv.values.push_back({any(random), any(random)});
+  BestOptions options;
+  options.nearby = &uv;
+  EXPECT_EQ(flatten_best(bowl.mesh, bowl.whole, options).uv.values, cold.uv.values);
+  for (Vec2& p : uv.values) p = {0, 0};
+  EXPECT_EQ(flatten_best(bowl.mesh, bowl.whole, options).uv.values, cold.uv.values);
+}
+
+TEST(Nearby, AMapOfAnotherMeshIsRefused) {
+  const Bowl bowl;
+  const Flattening map = flatten_best(bowl.mesh, bowl.whole);
+  const auto expect_refused = [&](const CornerAttribute<Vec2>& uv) {
+    BestOptions options;
+    options.nearby = &uv;
+    EXPECT_THROW(flatten_best(bowl.mesh, bowl.whole, options), InvalidInput);
+    EXPECT_THROW(flatten_automatic(bowl.mesh, bowl.whole, {.best = options}), InvalidInput);
+  };
+  CornerAttribute<Vec2> uv = map.uv;
+  uv.indices.pop_back();
+  expect_refused(uv);
+  uv = map.uv;
+  uv.indices[5][1] = static_cast<Index>(uv.values.size());
+  expect_refused(uv);
+  uv = map.uv;
+  uv.values[7].y = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(uv);
+}
+
+TEST(Nearby, WhatIsOfNoUseIsLeftUnfinishedHereToo) {
+  const Bowl bowl;
+  const ChartSet slit = bowl.slit(30);
+  BestOptions options = exact();
+  const Flattening open = flatten(bowl.mesh, slit, options), whole = flatten(bowl.mesh, bowl.whole, options);
+  options.nearby = &open.uv;
+  const double area = 2 * k_pi * 100 * 100, excess = (whole.trace.back().error - 4) * area;
+  options.give_up_excess_mm2 = 0.5 * excess;
+  const Flattening left = flatten_best(bowl.mesh, bowl.whole, options);
+  EXPECT_TRUE(left.notes.empty());
+  EXPECT_GT(left.trace.back().error, whole.trace.back().error);
+  EXPECT_EQ(measure_distortion(bowl.mesh, left.uv).flipped, 0u);
+  options.give_up_excess_mm2 = 1.1 * excess;
+  EXPECT_NEAR(flatten_best(bowl.mesh, bowl.whole, options).trace.back().error, whole.trace.back().error, 1e-4);
+}
+
+/// A plate as a chart, and the map that leaves it where it is.
+struct Plate {
+  TriangleMesh mesh = test::plane(12, 8, 12, 8);
+  ChartSurface chart;
+  CornersOfVertices corners{mesh.triangles, mesh.positions.size()};
+  std::vector<Vec2> uv;
+  std::vector<std::array<Vec2, 3>> shapes;
+  Plate() {
+    chart.positions = mesh.positions;
+    chart.triangles = mesh.triangles;
+    for (const Vec3& p : mesh.positions) uv.push_back({p.x, p.y});
+    for (const Triangle& t : mesh.triangles) shapes.push_back({uv[t[0]], uv[t[1]], uv[t[2]]});
+  }
+  Index at(double x, double y) const {
+    for (Index v = 0; v < uv.size(); ++v)
+      if (norm(mesh.positions[v] - Vec3{x, y, 0}) < 1e-9) return v;
+    ADD_FAILURE() << "no vertex at " << x << ", " << y;
+    return 0;
+  }
+  std::vector<Index> within(double left, double right) const {
+    std::vector<Index> vertices;
+    for (Index v = 0; v < uv.size(); ++v)
+      if (uv[v].x > left && uv[v].x < right) vertices.push_back(v);
+    return vertices;
+  }
+};
+
+TEST(PlaceRigidly, ShapesThatFitComeBack) {
+  Plate plate;
+  const std::vector<Vec2> before = plate.uv;
+  const std::vector<Index> free = plate.within(2.5, 8.5);
+  for (const Index v : free) plate.uv[v] = plate.uv[v] + Vec2{0.4 * std::sin(3.0 * v), 0.3 * std::cos(5.0 * v)};
+  place_rigidly(plate.chart, plate.corners, plate.shapes, free, plate.uv);
+  for (std::size_t v = 0; v < before.size(); ++v) EXPECT_LT(norm(plate.uv[v] - before[v]), 1e-6) << v;
+}
+
+TEST(PlaceRigidly, ShapesThatAreTurnedTurnBack) {
+  Plate plate;
+  const std::vector<Vec2> before = plate.uv;
+  const Vec2 by{std::cos(0.6), std::sin(0.6)};
+  for (auto& shape : plate.shapes)
+    for (Vec2& p : shape) p = turned(p, by);
+  place_rigidly(plate.chart, plate.corners, plate.shapes, plate.within(2.5, 8.5), plate.uv);
+  double most = 0;
+  for (std::size_t v = 0; v < before.size(); ++v) most = std::max(most, norm(plate.uv[v] - before[v]));
+  EXPECT_LT(most, 0.3);  // each turn brings them nearer
+  EXPECT_GT(most, 0);
+}
+
+TEST(MendMap, TrianglesAreTurnedBack) {
+  Plate plate;
+  const std::vector<Vec2> before = plate.uv;
+  plate.uv[plate.at(5, 4)] = {6.4, 4.3};
+  plate.uv[plate.at(12, 8)] = {10.8, 6.9};  // a corner of the plate, over the diagonal
+  ASSERT_TRUE(mend_map(plate.chart, plate.corners, plate.uv));
+  for (const Triangle& t : plate.mesh.triangles)
+    EXPECT_GT(cross(plate.uv[t[1]] - plate.uv[t[0]], plate.uv[t[2]] - plate.uv[t[0]]), 0);
+  for (std::size_t v = 0; v < before.size(); ++v) EXPECT_LT(norm(plate.uv[v] - before[v]), 1.5) << v;
+  plate.uv[plate.at(5, 4)] = {400, 4};
+  EXPECT_FALSE(mend_map(plate.chart, plate.corners, plate.uv)) << "too much is wrong";
+}
+
+TEST(MendMap, TheBorderIsDrawnApart) {
+  // A plate with a slit whose sides lie on each other.
+  const TriangleMesh mesh = test::plane(12, 8, 12, 8);
+  std::vector<std::uint8_t> seam;
+  const std::vector<double> costs(3 * mesh.triangles.size(), 0);
+  const SeamMesh seams(mesh, costs);
+  seam = test::border_seams(seams);
+  test::draw_seam(seams, seam, {6, 0, 0}, {6, 5, 0});
+  const ChartSet charts = charts_between(seams, seam);
+  const TriangleMesh open = cut_open(mesh, charts);
+  ASSERT_EQ(open.positions.size(), mesh.positions.size() + 5);
+  ChartSurface chart;
+  chart.positions = open.positions;
+  chart.triangles = open.triangles;
+  std::vector<Vec2> uv;
+  for (const Vec3& p : open.positions) uv.push_back({p.x, p.y});
+  ASSERT_TRUE(mend_map(chart, CornersOfVertices(open.triangles, uv.size()), uv));
+  std::set<Index> moved;
+  for (Index v = 0; v < uv.size(); ++v)
+    if (norm(uv[v] - Vec2{open.positions[v].x, open.positions[v].y}) > 0) moved.insert(v);
+  for (const Index v : moved) EXPECT_LE(std::abs(open.positions[v].x - 6), 1) << "away from the slit nothing moves";
+  EXPECT_GE(moved.size(), 10u);
+}
+
+TEST(SheetOverlap, PointsThatMeetAreThoseOfAllPairs) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (int run = 0; run < 20; ++run) {
+    std::vector<BorderEdge> border;
+    for (Index i = 0; i < 40; ++i) {
+      const Vec2 a{any(random), 3 * any(random)};
+      border.push_back({2 * i, 2 * i + 1, a, a + Vec2{0.1 * any(random), 0.1 * any(random)}});
+    }
+    std::set<Index> expected;
+    for (std::size_t i = 0; i < border.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (edges_conflict(border[i], border[j], 1e-13))
+          expected.insert({border[i].from, border[i].to, border[j].from, border[j].to});
+    const std::vector<Index> found = points_that_meet(border);
+    EXPECT_EQ(std::vector<Index>(expected.begin(), expected.end()), found) << run;
+  }
+}
+
+}  // namespace
+}  // namespace papilla
