@@ -3,6 +3,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -60,14 +61,23 @@ std::vector<ChartOutline> cut_patches(const SegmentedMesh& surface, const SeamWe
 
 struct ChartSegmenter::Surface {
   SegmentedMesh mesh;
-  std::vector<float> openness;
 
-  explicit Surface(const TriangleMesh& of) : mesh(of), openness(triangle_openness(mesh)) {}
+  explicit Surface(const TriangleMesh& of) : mesh(of) {}
 
   SeamWeights weights(const SegmentationOptions& options) const {
     if (!options.weigh_seams) return SeamWeights(mesh);
-    return {mesh, options.eye ? openness_to(mesh, *options.eye) : openness, options.feature_angle_deg};
+    return {mesh, options.eye ? openness_to(mesh, *options.eye) : openness(), options.feature_angle_deg};
   }
+
+ private:
+  /// Looked at once, where it is asked for.
+  const std::vector<float>& openness() const {
+    std::call_once(looked_at_, [&] { openness_ = triangle_openness(mesh); });
+    return openness_;
+  }
+
+  mutable std::once_flag looked_at_;
+  mutable std::vector<float> openness_;
 };
 
 ChartSegmenter::ChartSegmenter(const TriangleMesh& mesh) {
