@@ -5,14 +5,16 @@
 #include <cmath>
 
 #include "border_guard.hpp"
+#include "ring_kernel.hpp"
 #include "sheet_overlap.hpp"
 
 namespace papilla::param_detail {
 namespace {
 
-/// As often vertices are moved, and by which part of the way: where the border meets itself, and where triangles are
-/// turned over.
-constexpr int k_rounds = 12;
+/// As often vertices are moved; from some rounds on, their neighbours with them.
+constexpr int k_rounds = 20, k_narrow = 6;
+
+/// By which part of the way: where the border meets itself, and where triangles are turned over.
 constexpr double k_drawn = 0.2, k_unfolded = 0.5;
 
 class Mender {
@@ -32,9 +34,9 @@ class Mender {
       if (turned_over.empty() && meeting.empty()) return true;
       if (round == k_rounds) return false;
       if (meeting.empty())
-        move(turned_over, k_unfolded, [&](Index v) { return on_border_[v] ? by_shapes(v) : middle_around(v); });
+        turn_back(round < k_narrow ? turned_over : with_neighbours(turned_over));
       else
-        move(meeting, k_drawn, [&](Index v) { return middle_around(v); });
+        move(round < k_narrow ? meeting : with_neighbours(meeting), k_drawn, [&](Index v) { return middle_around(v); });
     }
   }
 
@@ -44,6 +46,46 @@ class Mender {
     std::vector<Vec2> places;
     for (const Index v : vertices) places.push_back(uv_[v] + part * (place(v) - uv_[v]));
     for (std::size_t i = 0; i < vertices.size(); ++i) uv_[vertices[i]] = places[i];
+  }
+
+  /// One after the other: two that both went over the edge between them would turn their triangle over again.
+  void turn_back(const std::vector<Index>& vertices) {
+    for (const Index v : vertices) {
+      if (is_positive_around(v, uv_[v])) continue;
+      const Vec2 wanted = on_border_[v] ? by_shapes(v) : middle_around(v);
+      if (is_positive_around(v, wanted))
+        uv_[v] = wanted;
+      else if (!find_place(v, uv_[v]))
+        uv_[v] = uv_[v] + k_unfolded * (wanted - uv_[v]);
+    }
+  }
+
+  /// Where all triangles around a vertex are positive, if anywhere.
+  bool find_place(Index v, Vec2& place) const {
+    std::vector<RingEdge> ring;
+    for (const Index c : corners_.of(v)) {
+      const Triangle& t = chart_.triangles[c / 3];
+      ring.push_back({uv_[t[(c % 3 + 1) % 3]], uv_[t[(c % 3 + 2) % 3]], {}});
+    }
+    return middle_of_kernel(ring, false, place);
+  }
+
+  bool is_positive_around(Index v, Vec2 place) const {
+    const auto corners = corners_.of(v);
+    return std::all_of(corners.begin(), corners.end(), [&](Index c) {
+      const Triangle& t = chart_.triangles[c / 3];
+      return cross(uv_[t[(c % 3 + 1) % 3]] - place, uv_[t[(c % 3 + 2) % 3]] - place) > 0;
+    });
+  }
+
+  std::vector<Index> with_neighbours(const std::vector<Index>& vertices) const {
+    std::vector<Index> all;
+    for (const Index v : vertices)
+      for (const Index c : corners_.of(v))
+        all.insert(all.end(), chart_.triangles[c / 3].begin(), chart_.triangles[c / 3].end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
   }
 
   std::vector<Index> corners_turned_over() const {

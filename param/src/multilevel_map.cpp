@@ -16,7 +16,7 @@
 #include "map_descent.hpp"
 #include "map_level.hpp"
 #include "nearby_map.hpp"
-#include "papilla/core/bounds.hpp"
+#include "ring_kernel.hpp"
 #include "tube_map.hpp"
 #include "vertex_step.hpp"
 
@@ -81,13 +81,6 @@ constexpr int k_fine_sweeps = 30;
 /// A level whose energy per area is this much of that of the level before, at most, counts as smooth.
 constexpr double k_smooth = 1.01;
 
-/// A triangle of a vertex that comes back into a map: the edge opposite to the vertex, and the shape of
-/// (vertex, from, to).
-struct RingEdge {
-  Vec2 from, to;
-  RestShape rest;
-};
-
 constexpr int k_place_steps = 20;
 
 /// Steps end when the vertex moves by less than this fraction of an edge of its ring.
@@ -122,36 +115,6 @@ Guess guess(const RingEdge& e) {
   const double far = std::sqrt(along * along + height * height), trust = length * length / (base * far);
   const double nearness = std::max(1.0, k_near * length / std::min(base, far));
   return {apex, e.rest.area * trust * trust * nearness * nearness};
-}
-
-using Polygon = std::vector<Vec2>;
-
-/// The part of a convex polygon left of the line through a and b.
-Polygon clip(const Polygon& polygon, Vec2 a, Vec2 b) {
-  Polygon result;
-  const Vec2 d = b - a;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-    const double s = cross(d, p - a), t = cross(d, q - a);
-    if (s > 0) result.push_back(p);
-    if ((s > 0) != (t > 0)) result.push_back(p + (s / (s - t)) * (q - p));
-  }
-  return result;
-}
-
-/// The middle of all places that see every edge of the ring from the left.
-bool middle_of_kernel(std::span<const RingEdge> ring, bool closed_by_chord, Vec2& middle) {
-  Bounds2 bounds;
-  bounds.add(ring.front().from);
-  for (const RingEdge& e : ring) bounds.add(e.to);
-  const auto [low, high] = bounds;
-  Polygon kernel{low, {high.x, low.y}, high, {low.x, high.y}};
-  for (const RingEdge& e : ring) kernel = clip(kernel, e.from, e.to);
-  if (closed_by_chord) kernel = clip(kernel, ring.back().to, ring.front().from);
-  if (kernel.size() < 3) return false;
-  middle = {};
-  for (const Vec2 p : kernel) middle = middle + (1 / static_cast<double>(kernel.size())) * p;
-  return true;
 }
 
 bool all_positive(std::span<const RingEdge> ring, Vec2 at) {

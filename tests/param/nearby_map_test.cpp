@@ -205,8 +205,8 @@ TEST(MendMap, TrianglesAreTurnedBack) {
   ASSERT_TRUE(mend_map(plate.chart, plate.corners, plate.uv));
   for (const Triangle& t : plate.mesh.triangles)
     EXPECT_GT(cross(plate.uv[t[1]] - plate.uv[t[0]], plate.uv[t[2]] - plate.uv[t[0]]), 0);
-  for (std::size_t v = 0; v < before.size(); ++v) EXPECT_LT(norm(plate.uv[v] - before[v]), 1.5) << v;
-  plate.uv[plate.at(5, 4)] = {400, 4};
+  for (std::size_t v = 0; v < before.size(); ++v) EXPECT_LT(norm(plate.uv[v] - before[v]), 2) << v;
+  for (Vec2& p : plate.uv) p.x = -p.x;
   EXPECT_FALSE(mend_map(plate.chart, plate.corners, plate.uv)) << "too much is wrong";
 }
 
