@@ -176,8 +176,8 @@ bool BoundKeeper::leave_same_seams(double low, double high) {
   return a != tries.end() && b != tries.end() && a->second.seam == b->second.seam;
 }
 
-SeamState BoundKeeper::map(const ChartSet& charts, double most_excess_mm2, const SeamState* nearby) {
-  ChartedMap charted = tools_.map(charts, most_excess_mm2, nearby ? &nearby->charted.flattening.uv : nullptr);
+SeamState BoundKeeper::map(const ChartSet& charts, double most_excess_mm2, const CornerAttribute<Vec2>* nearby) {
+  ChartedMap charted = tools_.map(charts, most_excess_mm2, nearby);
   std::vector<std::uint8_t> without_map;
   if (!charted.flattening.notes.empty()) {
     std::vector<std::uint8_t> fails(charts.count, 0);
@@ -245,7 +245,8 @@ void BoundKeeper::keep_cheapest() {
   kept_.clear();
 }
 
-SeamState BoundKeeper::map_seams(const std::vector<std::uint8_t>& seam, bool whole, const SeamState* nearby) {
+SeamState BoundKeeper::map_seams(const std::vector<std::uint8_t>& seam, bool whole,
+                                 const CornerAttribute<Vec2>* nearby) {
   std::vector<bool> key(seam.begin(), seam.end());
   if (const auto before = known_.find(key); before != known_.end() && (before->second.is_whole || !whole))
     return before->second.state;

@@ -36,8 +36,8 @@ class BoundKeeper {
   std::optional<SeamState> finished(SeamState state);
 
   /// A map of seams, made once as long as it is remembered, and again where it was left unfinished and is wanted whole.
-  /// @param whole also where it is of no use as it breaks the bound. @param nearby given: with its uv.
-  SeamState map_seams(const std::vector<std::uint8_t>& seam, bool whole, const SeamState* nearby = nullptr);
+  /// @param whole also where it is of no use as it breaks the bound. @param nearby as SeamTools::map says.
+  SeamState map_seams(const std::vector<std::uint8_t>& seam, bool whole, const CornerAttribute<Vec2>* nearby);
 
   bool keeps(const SeamState& state) const { return state.distortion <= bound_.most + k_bound_slack; }
   const SeamMesh& mesh() const { return mesh_; }
@@ -59,7 +59,7 @@ class BoundKeeper {
   bool is_same_without_features();
   void search_cost();
   bool leave_same_seams(double low, double high);
-  SeamState map(const ChartSet& charts, double most_excess_mm2, const SeamState* nearby);
+  SeamState map(const ChartSet& charts, double most_excess_mm2, const CornerAttribute<Vec2>* nearby);
   std::vector<std::uint32_t> worth_halving(const SeamState& state) const;
   void halve();
   void lengthen();
@@ -85,9 +85,11 @@ class BoundKeeper {
   std::map<bool, Tries> tried_;                         ///< Without seams along features, and with.
   std::unordered_map<std::vector<bool>, Known> known_;  ///< By their seams.
   std::size_t remembered_ = 0;                          ///< Triangles of known_.
-  const MapSeams map_ = [this](const auto& seam, const SeamState& nearby) { return map_seams(seam, false, &nearby); };
+  const MapSeams map_ = [this](const auto& seam, const SeamState& nearby) {
+    return map_seams(seam, false, &nearby.charted.flattening.uv);
+  };
   const MapSeams map_fully_ = [this](const auto& seam, const SeamState& nearby) {
-    return map_seams(seam, true, &nearby);
+    return map_seams(seam, true, &nearby.charted.flattening.uv);
   };
 };
 

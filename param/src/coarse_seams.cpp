@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lift_map.hpp"
 #include "lift_seams.hpp"
 
 namespace papilla::param_detail {
@@ -73,8 +74,8 @@ class CoarseSearch {
 
   /// @return whether it has a map on the fine mesh.
   bool lift(const SeamState& state) {
-    SeamState fine = fine_.map_seams(lift_seams(fine_.mesh(), coarse_.mesh(), vertices_, state.seam), true,
-                                     lifted_.empty() ? nullptr : &lifted_.back());
+    const CornerAttribute<Vec2> nearby = lift_map(fine_.mesh(), coarse_.mesh(), vertices_, state.charted.flattening.uv);
+    SeamState fine = fine_.map_seams(lift_seams(fine_.mesh(), coarse_.mesh(), vertices_, state.seam), true, &nearby);
     if (!fine.valid) return false;
     lifted_.push_back(std::move(fine));
     return true;

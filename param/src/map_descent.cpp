@@ -368,7 +368,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
   result.trace.push_back({clock.seconds(), result.energy});
   double step = 1, slope_before = 0;
   Experience experience;
-  bool little_before = false;
+  bool little_before = false, is_near = !options.from_far;
   Pairs pairs = near_pairs(problem, uv);
   while (result.iterations < options.max_iterations) {
     if (result.energy < options.negligible) {
@@ -388,7 +388,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     }
     const std::vector<Vec2> direction = direct(gradient, uv, pairs, experience);
     const double slope = dot(gradient, direction), before = result.energy;
-    if (before + k_most_slopes * slope > options.give_up_energy) break;
+    if (is_near && before + k_most_slopes * slope > options.give_up_energy) break;
     ++result.iterations;
     Step taken;
     if (slope < 0) {
@@ -410,10 +410,11 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     const double gain = before - result.energy, small = options.tolerance * result.energy;
     const bool little = std::abs(gain) <= small;
     const bool stands = little && (-slope <= k_promise * small ||
-                                   (problem.barrier && (little_before || taken.length >= k_blocked_step)));
+                                   (problem.barrier && (little_before || (is_near && taken.length >= k_blocked_step))));
     little_before = little;
     const bool as_foreseen =
         taken.length >= step && taken.length < k_longer * step && gain < -k_most_gain * taken.length * slope;
+    is_near = is_near || as_foreseen;
     const bool was_last = options.foresee && as_foreseen && left_after(gain, slope, slope_before) <= small;
     if ((stands || was_last) && result.iterations >= options.least_iterations) {
       result.stop = StopReason::converged;

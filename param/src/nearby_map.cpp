@@ -8,6 +8,12 @@
 #include "stitched_start.hpp"
 
 namespace papilla::param_detail {
+namespace {
+
+/// What one cut changes is less than what a map from nothing may still gain.
+constexpr double k_finer = 0.3;
+
+}  // namespace
 
 std::optional<MultilevelMap> map_nearby(const ChartSurface& chart, const MultilevelOptions& options) {
   if (options.max_iterations == 0 || chart.positions.size() > options.newton_vertices) return {};
@@ -23,7 +29,8 @@ std::optional<MultilevelMap> map_nearby(const ChartSurface& chart, const Multile
   if (!barrier.is_simple(*uv)) return {};
   DescentOptions descent;
   descent.max_iterations = options.max_iterations;
-  descent.tolerance = options.tolerance;
+  descent.tolerance = k_finer * options.tolerance;
+  descent.from_far = true;
   descent.foresee = true;
   descent.deadline = options.deadline;
   descent.give_up_energy = options.give_up_energy * area;

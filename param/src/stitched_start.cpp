@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "corners_of_vertices.hpp"
@@ -16,7 +17,7 @@ namespace {
 /// Vertices around closed seams of n that are placed anew: as far as they are long on both sides, and some.
 constexpr std::size_t k_around = 4, k_least_around = 300;
 
-/// Of more pieces, this is not the map nearby that it was taken for.
+/// More pieces are not laid one by one: all triangles are put together anew.
 constexpr Index k_most_pieces = 64;
 
 /// Lays points against others: p -> to + turn (p - from), the turn as a complex number of length 1.
@@ -47,6 +48,7 @@ class Stitcher {
   }
 
   std::optional<std::vector<Vec2>> run() {
+    if (pieces_ > k_most_pieces) return from_shapes();
     if (!lay_pieces()) return {};
     std::vector<Vec2> uv = means();
     if (!merged_.empty()) place_rigidly(chart_, corners_, shapes_before(), around_merged(), uv);
@@ -55,6 +57,15 @@ class Stitcher {
   }
 
  private:
+  std::optional<std::vector<Vec2>> from_shapes() {
+    std::vector<Vec2> uv = means();
+    std::vector<Index> all(uv.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    place_rigidly(chart_, corners_, shapes_before(), all, uv);
+    if (!mend_map(chart_, corners_, uv)) return {};
+    return uv;
+  }
+
   /// An edge between two triangles that was a seam.
   struct Joint {
     std::array<Index, 2> first, second;  ///< Corners at its ends on either side.
@@ -102,7 +113,6 @@ class Stitcher {
   /// Moves pieces to the largest one, each time that with most edges in common with what is laid.
   bool lay_pieces() {
     if (pieces_ == 1) return true;
-    if (pieces_ > k_most_pieces) return false;
     std::vector<Index> size(pieces_, 0);
     for (const Index p : piece_) ++size[p];
     std::vector<char> laid(pieces_, 0);

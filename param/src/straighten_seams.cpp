@@ -18,6 +18,10 @@ constexpr double k_corridor = 0.25;
 /// A new way that costs more than this part of the old one is not worth a map.
 constexpr double k_worthwhile = 0.998;
 
+/// A straight way costs this part of a zigzag beside it at least. One that costs less leaves out what the old one went
+/// around: the tip of a finger.
+constexpr double k_zigzag = 0.8;
+
 /// As often half of the new ways is given up where all of them break the bound.
 constexpr int k_attempts = 4;
 
@@ -59,7 +63,8 @@ class WayFinder {
   std::vector<Index> own_;
 };
 
-std::vector<NewWay> new_ways(const SeamMesh& mesh, const std::vector<std::uint8_t>& seam, double most_mm) {
+std::vector<NewWay> new_ways(const SeamMesh& mesh, const std::vector<std::uint8_t>& seam, double most_mm,
+                             double least_part) {
   WayFinder finder(mesh);
   const std::vector<SeamPath> paths = seam_paths(mesh, seam);
   std::vector<char> blocked = mesh.on_border;
@@ -72,7 +77,7 @@ std::vector<NewWay> new_ways(const SeamMesh& mesh, const std::vector<std::uint8_
     double before = 0, after = 0;
     for (const Index h : way.before) before += mesh.cost[h];
     for (const Index h : way.after) after += mesh.cost[h];
-    if (way.after.empty() || !(after < k_worthwhile * before)) continue;
+    if (way.after.empty() || !(after < k_worthwhile * before) || after < least_part * before) continue;
     for (const Index h : way.after) blocked[mesh.from(h)] = blocked[mesh.to(h)] = 1;
     way.saved = before - after;
     ways.push_back(std::move(way));
@@ -92,13 +97,13 @@ std::vector<std::uint8_t> with_ways(const SeamMesh& mesh, const std::vector<NewW
 }  // namespace
 
 std::vector<std::uint8_t> straightened(const SeamMesh& mesh, std::vector<std::uint8_t> seam, double most_mm) {
-  const std::vector<NewWay> ways = new_ways(mesh, seam, most_mm);
+  const std::vector<NewWay> ways = new_ways(mesh, seam, most_mm, k_zigzag);
   return with_ways(mesh, ways, std::move(seam));
 }
 
 SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
                            const Deadline& deadline) {
-  std::vector<NewWay> ways = new_ways(mesh, state.seam, std::numeric_limits<double>::infinity());
+  std::vector<NewWay> ways = new_ways(mesh, state.seam, std::numeric_limits<double>::infinity(), 0);
   for (int i = 0; i < k_attempts && !ways.empty() && !deadline.passed(); ++i) {
     SeamState next = map(with_ways(mesh, ways, state.seam), state);
     if (next.valid && next.distortion <= bound.most + k_bound_slack && next.cost_mm < state.cost_mm) return next;

@@ -14,7 +14,8 @@ namespace papilla::param_detail {
 SeamState straighten_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound, const MapSeams& map,
                            const Deadline& deadline);
 
-/// The same without a bound and a map, for seams that need none yet: ways stay within a distance of the old ones.
+/// The same without a bound and a map, for seams that need none yet: zigzags are straightened, ways stay within a
+/// distance of the old ones and go around the same places.
 /// @param seam per half-edge, as SeamState::seam.
 std::vector<std::uint8_t> straightened(const SeamMesh& mesh, std::vector<std::uint8_t> seam, double most_mm);
 

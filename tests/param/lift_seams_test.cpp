@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "drawn_seams.hpp"
+#include "lift_map.hpp"
 #include "papilla/meshing/coarsen.hpp"
 #include "papilla_test/shapes.hpp"
 #include "seam_paths.hpp"
+#include "straighten_seams.hpp"
 
 namespace papilla {
 namespace {
@@ -105,6 +107,79 @@ TEST(LiftSeams, NeighboursKeepApartWhereOneWayIsCheap) {
   const std::vector<std::uint8_t> lifted = lift_seams(fine.seams, coarse.seams, places(coarse.mesh, fine.mesh), seam);
   EXPECT_EQ(fine.tips(lifted), 2u);
   EXPECT_EQ(charts_between(fine.seams, lifted).count, 1u);
+}
+
+TEST(LiftSeams, WhatGoesAroundSomethingIsNotStraightened) {
+  // Three sides of a rectangle of 2 x 6: the fourth is a third as long. A zigzag beside it is straightened.
+  const Priced plate(test::plane(12, 12, 12, 12));
+  std::vector<std::uint8_t> around = plate.borders();
+  plate.cut(around, {4, 2, 0}, {4, 8, 0});
+  plate.cut(around, {4, 8, 0}, {6, 8, 0});
+  plate.cut(around, {6, 8, 0}, {6, 2, 0});
+  plate.cut(around, {6, 2, 0}, {11, 2, 0});
+  plate.cut(around, {4, 2, 0}, {1, 2, 0});
+  plate.cut(around, {4, 2, 0}, {4, 1, 0});  // places where seams meet
+  plate.cut(around, {6, 2, 0}, {6, 1, 0});
+  EXPECT_EQ(straightened(plate.seams, around, 6), around);
+  std::vector<std::uint8_t> zigzag = plate.borders(), straight = zigzag;
+  plate.cut(zigzag, {0, 6, 0}, {5, 6, 0});
+  plate.cut(zigzag, {5, 6, 0}, {5, 7, 0});
+  plate.cut(zigzag, {5, 7, 0}, {7, 7, 0});
+  plate.cut(zigzag, {7, 7, 0}, {7, 6, 0});
+  plate.cut(zigzag, {7, 6, 0}, {12, 6, 0});
+  plate.cut(straight, {0, 6, 0}, {12, 6, 0});
+  EXPECT_EQ(straightened(plate.seams, zigzag, 6), straight);
+}
+
+/// Of triangles in space by two affine maps, on either side of x = 20, the places.
+Vec2 affine(Vec3 p, bool right) {
+  return right ? Vec2{100 - 2 * p.y, 0.5 * p.x} : Vec2{p.x + 0.3 * p.y, 1.5 * p.y - 0.2 * p.x};
+}
+
+TEST(LiftMap, TrianglesGoWhereTheCoarseOnesAre) {
+  const Priced coarse(test::plane(40, 12, 4, 2)), fine(test::plane(40, 12, 20, 12));
+  const auto is_right = [](const TriangleMesh& mesh, const Triangle& t) {
+    double x = 0;
+    for (const Index v : t) x += mesh.positions[v].x / 3;
+    return x > 20;
+  };
+  CornerAttribute<Vec2> uv;
+  for (const Triangle& t : coarse.mesh.triangles) {
+    Triangle& corners = uv.indices.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = static_cast<Index>(uv.values.size());
+      uv.values.push_back(affine(coarse.mesh.positions[t[k]], is_right(coarse.mesh, t)));
+    }
+  }
+  const CornerAttribute<Vec2> lifted = lift_map(fine.seams, coarse.seams, places(coarse.mesh, fine.mesh), uv);
+  ASSERT_EQ(lifted.indices.size(), fine.mesh.triangles.size());
+  for (std::size_t t = 0; t < lifted.indices.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle& corners = fine.mesh.triangles[t];
+      const Vec2 expected = affine(fine.mesh.positions[corners[k]], is_right(fine.mesh, corners));
+      EXPECT_LT(norm(lifted.values[lifted.indices[t][k]] - expected), 1e-9) << t;
+    }
+}
+
+TEST(LiftMap, OfTwoSidesThatOfTheTriangleIsTaken) {
+  // A sheet folded back onto itself, 1 above it: the middle of a triangle is nearly as near to the other leaf.
+  const auto folded = [](TriangleMesh mesh) {
+    for (Vec3& p : mesh.positions)
+      if (p.x > 20) p = {40 - p.x, p.y, std::min(1.0, p.x - 20)};
+    return mesh;
+  };
+  const Priced coarse(folded(test::plane(40, 12, 20, 6))), fine(folded(test::plane(40, 12, 40, 12)));
+  const std::vector<Index> vertices = places(coarse.mesh, fine.mesh);
+  CornerAttribute<Vec2> uv{{}, coarse.mesh.triangles};
+  for (const Vec3& p : coarse.mesh.positions) uv.values.push_back({p.z > 0.5 ? 40 - p.x : p.x, p.y});
+  const CornerAttribute<Vec2> lifted = lift_map(fine.seams, coarse.seams, vertices, uv);
+  for (std::size_t t = 0; t < lifted.indices.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = fine.mesh.positions[fine.mesh.triangles[t][k]];
+      const Vec2 at = lifted.values[lifted.indices[t][k]];
+      EXPECT_NEAR(at.y, p.y, 1e-9);
+      if (p.x < 15) EXPECT_NEAR(at.x, p.z > 0.5 ? 40 - p.x : p.x, 1e-9) << t;
+    }
 }
 
 TEST(LiftSeams, WaysOfASphereAreNearlyAsShortAsItsEdgesAllow) {

@@ -98,6 +98,28 @@ TEST(Nearby, ChartsAreJoined) {
   expect_same_minimum(mesh, strips, test::one_chart(mesh));
 }
 
+TEST(Nearby, TrianglesThatDoNotHangTogetherAreJoined) {
+  // Of the map of a bowl with a slit, each triangle a little turned.
+  const Bowl bowl;
+  BestOptions options = exact();
+  const Flattening open = flatten(bowl.mesh, bowl.slit(50), options);
+  CornerAttribute<Vec2> apart;
+  for (std::size_t t = 0; t < open.uv.indices.size(); ++t) {
+    const Vec2 origin = open.uv.values[open.uv.indices[t][0]];
+    const double angle = 0.2 * std::sin(7.0 * static_cast<double>(t));
+    const auto first = static_cast<Index>(apart.values.size());
+    for (const Index v : open.uv.indices[t])
+      apart.values.push_back(origin + turned(open.uv.values[v] - origin, {std::cos(angle), std::sin(angle)}));
+    apart.indices.push_back({first, first + 1, first + 2});
+  }
+  options.nearby = &apart;
+  const Flattening joined = flatten(bowl.mesh, bowl.slit(50), options);
+  const double energy = open.trace.back().error;
+  EXPECT_NEAR(joined.trace.back().error, energy, 1e-5 * energy);
+  EXPECT_LT(joined.trace.front().error, 1.1 * energy) << "it began nearby";
+  EXPECT_NE(joined.uv.values, open.uv.values);
+}
+
 TEST(Nearby, WhatIsNotNearbyIsOfNoConsequence) {
   const Bowl bowl;
   const Flattening cold = flatten_best(bowl.mesh, bowl.whole);

@@ -99,8 +99,9 @@ inline constexpr double k_bound_slack = 1e-6;
 ///
 /// With `coarse`, all that is done on the coarse mesh, for a bound under which the fine map of the same seams comes out
 /// at the one that is asked for: found from the ratio of their D - 4, once when first seams are short and up to four
-/// times at the end. Seams are lifted to the fine mesh edge by edge and straightened within a coarse edge; 2. and 3.
-/// finish them there. Where nothing comes of that the whole mesh is searched.
+/// times at the end. Seams are lifted to the fine mesh edge by edge, zigzags straightened within a coarse edge, and
+/// their map begins at the coarse one; 2. and 3. finish them there. Where nothing comes of that the whole mesh is
+/// searched.
 ///
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
