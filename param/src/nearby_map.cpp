@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nearby_map.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "map_descent.hpp"
@@ -38,7 +39,7 @@ std::optional<MultilevelMap> map_nearby(const ChartSurface& chart, const Multile
   const DescentResult result = descend({chart.triangles, &energy, &barrier}, *uv, descent);
   MultilevelMap map;
   map.given_up = result.energy > descent.give_up_energy;
-  if (result.stop == StopReason::line_search_stalled && !map.given_up) return {};
+  if (!std::isfinite(result.energy) || (result.stop == StopReason::line_search_stalled && !map.given_up)) return {};
   map.uv = std::move(*uv);
   map.stop = result.stop;
   for (const TraceSample& sample : result.trace) map.trace.push_back({begin + sample.seconds, sample.error / area});

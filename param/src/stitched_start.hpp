@@ -10,8 +10,8 @@ namespace papilla::param_detail {
 
 /// A map of a chart from one of the same triangles that was cut in another way (ChartSurface::nearby). Pieces that are
 /// joined are laid against each other as they are; where seams are closed, the triangles around are put together anew
-/// in the least squares sense, Σ A |J - R J'|² with J' what they were and R how they turn; where they are opened, or
-/// the border meets itself, its vertices are drawn towards their neighbours.
+/// by place_rigidly(), and all of them where they came in many pieces, as from lift_map(); what is turned over then, or
+/// meets as a seam was opened, goes through mend_map().
 /// @return per vertex; every triangle is positive, no edges of the border meet. Nothing where that does not come of it.
 std::optional<std::vector<Vec2>> stitched_start(const ChartSurface& chart);
 
