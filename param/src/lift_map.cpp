@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lift_map.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -26,9 +27,9 @@ struct Plane {
     return {1 - b - c, b, c};
   }
 
-  /// How well a point of a surface with this normal lies over the triangle: more is better.
-  double fit(Vec3 point, Vec3 other_normal) const {
-    if (!(square > 0) || !(dot(normal, other_normal) > 0)) return -std::numeric_limits<double>::infinity();
+  /// How well a point lies over the triangle: 0 in it, less the further off.
+  double fit(Vec3 point) const {
+    if (!(square > 0)) return -std::numeric_limits<double>::infinity();
     const auto [a, b, c] = coordinates(point);
     const double height = std::abs(dot(point - origin, normal)) / std::pow(square, 0.75);  // over the root of 2 area
     return std::min({a, b, c, 0.0}) - height;
@@ -82,13 +83,13 @@ class MapLifter {
   Index triangle_under(const Triangle& t) const {
     const auto [a, b, c] = t;
     const Vec3 p = fine_.positions[a], q = fine_.positions[b], r = fine_.positions[c];
-    const Vec3 middle = (1.0 / 3) * (p + q + r), normal = cross(q - p, r - p);
+    const Vec3 middle = (1.0 / 3) * (p + q + r);
     Index best = 0;
     double most = -std::numeric_limits<double>::infinity();
     for (const Index v : t) {
       if (nearest_[v] == k_none) continue;
       for (const Index corner : corners_.of(nearest_[v]))
-        if (const double fit = plane_of(corner / 3).fit(middle, normal); fit > most) most = fit, best = corner / 3;
+        if (const double fit = plane_of(corner / 3).fit(middle); fit > most) most = fit, best = corner / 3;
     }
     return best;
   }

@@ -160,6 +160,8 @@ TEST(Nearby, WhatIsOfNoUseIsLeftUnfinishedHereToo) {
   BestOptions options = exact();
   const Flattening open = flatten(bowl.mesh, slit, options), whole = flatten(bowl.mesh, bowl.whole, options);
   options.nearby = &open.uv;
+  ChartMemory memory;
+  options.memory = &memory;
   const double area = 2 * k_pi * 100 * 100, excess = (whole.trace.back().error - 4) * area;
   options.give_up_excess_mm2 = 0.5 * excess;
   const Flattening left = flatten_best(bowl.mesh, bowl.whole, options);
@@ -167,7 +169,8 @@ TEST(Nearby, WhatIsOfNoUseIsLeftUnfinishedHereToo) {
   EXPECT_GT(left.trace.back().error, whole.trace.back().error);
   EXPECT_EQ(measure_distortion(bowl.mesh, left.uv).flipped, 0u);
   options.give_up_excess_mm2 = 1.1 * excess;
-  EXPECT_NEAR(flatten_best(bowl.mesh, bowl.whole, options).trace.back().error, whole.trace.back().error, 1e-4);
+  EXPECT_NEAR(flatten_best(bowl.mesh, bowl.whole, options).trace.back().error, whole.trace.back().error, 1e-4)
+      << "what was left is not remembered";
 }
 
 /// A plate as a chart, and the map that leaves it where it is.
