@@ -13,6 +13,9 @@
 namespace papilla::param_detail {
 namespace {
 
+/// How far off a triangle its map goes on, in its edges.
+constexpr double k_furthest = 16;
+
 /// A triangle in space, to say where points lie over it.
 struct Plane {
   Vec3 origin, p, q, normal;  ///< Of length 2 area.
@@ -20,10 +23,12 @@ struct Plane {
 
   Plane(Vec3 a, Vec3 b, Vec3 c) : origin(a), p(b - a), q(c - a), normal(cross(p, q)), square(dot(normal, normal)) {}
 
-  /// Coordinates by the corners of the foot of a point.
+  /// Coordinates by the corners of the foot of a point; those of the first corner where the triangle has no area.
   std::array<double, 3> coordinates(Vec3 point) const {
+    if (!(square > 0)) return {1, 0, 0};
     const Vec3 d = point - origin;
-    const double b = dot(cross(d, q), normal) / square, c = dot(cross(p, d), normal) / square;
+    const double b = std::clamp(dot(cross(d, q), normal) / square, -k_furthest, k_furthest);
+    const double c = std::clamp(dot(cross(p, d), normal) / square, -k_furthest, k_furthest);
     return {1 - b - c, b, c};
   }
 

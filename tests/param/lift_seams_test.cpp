@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "drawn_seams.hpp"
@@ -159,6 +160,20 @@ TEST(LiftMap, TrianglesGoWhereTheCoarseOnesAre) {
       const Vec2 expected = affine(fine.mesh.positions[corners[k]], is_right(fine.mesh, corners));
       EXPECT_LT(norm(lifted.values[lifted.indices[t][k]] - expected), 1e-9) << t;
     }
+}
+
+TEST(LiftMap, TrianglesWithoutAreaLeadNowhere) {
+  TriangleMesh flat = test::plane(40, 12, 4, 2);
+  for (Vec3& p : flat.positions) p = {p.x, 0, 0};
+  const Priced mesh(flat);
+  std::vector<Index> all(flat.positions.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  CornerAttribute<Vec2> uv{{}, flat.triangles};
+  for (const Vec3& p : flat.positions) uv.values.push_back({p.x, 7});
+  for (const Vec2 p : lift_map(mesh.seams, mesh.seams, all, uv).values) {
+    EXPECT_TRUE(p.x >= 0 && p.x <= 40) << p.x;
+    EXPECT_EQ(p.y, 7);
+  }
 }
 
 TEST(LiftMap, OfTwoSidesThatOfTheTriangleIsTaken) {
