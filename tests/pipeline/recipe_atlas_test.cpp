@@ -194,6 +194,7 @@ TEST(RecipeAtlas, IsTheSameForRecipesThatLookAtTheSame) {
   EXPECT_EQ(wood, key(k_wood, k_wood, k_side, R"(, "time": 0.5)")) << "or aged";
   EXPECT_NE(wood, key(k_bricks, k_bricks));
   EXPECT_NE(wood, key(k_bricks, "base|mainfunction=sky"));
+  EXPECT_NE(key(k_bricks, k_bricks), key(k_bricks, "base|mainfunction=sky")) << "of two that read no position";
   EXPECT_NE(wood, key(k_bricks, k_wood, k_side / 2));
   EXPECT_NE(wood, key(k_bricks, k_wood, k_side, R"(, "phase_mm": [3, 0])"));
   EXPECT_NE(key(k_bricks, "base|mainfunction=normaldot"),
