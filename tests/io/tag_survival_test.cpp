@@ -205,14 +205,14 @@ TEST_F(TagSurvivalTest, WithoutNamesThePlaceTells) {
   EXPECT_EQ(ways(scene), std::set<std::string>{"place"});
 }
 
-/// Leather and oak begin at one place and have as much surface, but do not end at one.
+/// Leather and oak begin at one place of the file, whose z is our -y, and have as much surface, but do not end at one.
 TEST_F(TagSurvivalTest, APlaceEndsSomewhere) {
   Scene scene = four_cubes();
   for (std::uint32_t i = 0; i < 2; ++i) {
     scene.parts[i].mesh = test::cube(10);
     for (Vec3& p : scene.parts[i].mesh.positions) {
       const Vec3 q = p + Vec3{5, 5, 5};
-      p = i == 0 ? Vec3{q.x, 2 * q.y, 3 * q.z} : Vec3{3 * q.x, q.y, 2 * q.z};
+      p = i == 0 ? Vec3{q.x, 2 * (q.y - 10), 3 * q.z} : Vec3{3 * q.x, q.y - 10, 2 * q.z};
     }
   }
   scene.nodes[1].local = scene.nodes[0].local;
@@ -221,11 +221,11 @@ TEST_F(TagSurvivalTest, APlaceEndsSomewhere) {
   int seen = 0;
   for (const Instance& use : instances(read)) {
     const Part& part = read.parts[use.part];
-    double height = 0;
-    for (const Vec3& p : part.mesh.positions) height = std::max(height, p.y);
+    double depth = 0;
+    for (const Vec3& p : part.mesh.positions) depth = std::max(depth, -p.y);
     const auto& haptic = read.materials[part.materials.at(0)].haptic;
     if (use.world[3] >= 50) continue;  // The other two cubes.
-    EXPECT_EQ(haptic.value().stiffness, height > 15 ? 300 : 900);
+    EXPECT_EQ(haptic.value().stiffness, depth > 15 ? 300 : 900);
     ++seen;
   }
   EXPECT_EQ(seen, 2);
