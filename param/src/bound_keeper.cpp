@@ -177,7 +177,8 @@ bool BoundKeeper::leave_same_seams(double low, double high) {
 }
 
 SeamState BoundKeeper::map(const ChartSet& charts, double most_excess_mm2, const CornerAttribute<Vec2>* nearby) {
-  ChartedMap charted = tools_.map(charts, most_excess_mm2, nearby);
+  const bool is_known = nearby && !nearby->indices.empty();
+  ChartedMap charted = tools_.map(charts, most_excess_mm2, is_known ? nearby : nullptr);
   std::vector<std::uint8_t> without_map;
   if (!charted.flattening.notes.empty()) {
     std::vector<std::uint8_t> fails(charts.count, 0);
