@@ -25,8 +25,10 @@ struct DescentOptions {
   /// and further: near a wall like 1/x² three times as far.
   bool of_logarithm = false;
   bool leave_when_blocked = false;  ///< Stop, as stalled, after a step that the barrier all but prevented.
-  bool from_far = false;            ///< The start is rough: before a step did what it promised, nothing is foreseen.
-  bool foresee = false;             ///< Stop also when what full steps have still to gain is below the tolerance.
+  /// The start is rough: before a step did what it promised, nothing is given up, nor does one step that the barrier
+  /// shortened count as convergence.
+  bool from_far = false;
+  bool foresee = false;  ///< Stop also when what full steps have still to gain is below the tolerance.
   /// Stop, as at the limit of iterations, when the energy will hardly come below this.
   double give_up_energy = std::numeric_limits<double>::infinity();
 };

@@ -2,7 +2,6 @@
 #include "mend_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "border_guard.hpp"
 #include "ring_kernel.hpp"
@@ -36,15 +35,15 @@ class Mender {
       if (meeting.empty())
         turn_back(round < k_narrow ? turned_over : with_neighbours(turned_over));
       else
-        move(round < k_narrow ? meeting : with_neighbours(meeting), k_drawn, [&](Index v) { return middle_around(v); });
+        draw_in(round < k_narrow ? meeting : with_neighbours(meeting));
     }
   }
 
  private:
-  template <class Place>
-  void move(const std::vector<Index>& vertices, double part, const Place& place) {
+  /// All at once, so that both sides of a slit go as far.
+  void draw_in(const std::vector<Index>& vertices) {
     std::vector<Vec2> places;
-    for (const Index v : vertices) places.push_back(uv_[v] + part * (place(v) - uv_[v]));
+    for (const Index v : vertices) places.push_back(uv_[v] + k_drawn * (middle_around(v) - uv_[v]));
     for (std::size_t i = 0; i < vertices.size(); ++i) uv_[vertices[i]] = places[i];
   }
 

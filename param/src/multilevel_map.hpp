@@ -35,7 +35,8 @@ struct MultilevelMap {
 
 /// A map of low symmetric Dirichlet energy that is injective: no triangle is flipped, and the chart does not overlap
 /// itself. The chart is coarsened to a few triangles, these are mapped, and vertices come back in order, each to a
-/// place where its triangles are positive; the map of every level is relaxed before the next one.
+/// place where its triangles are positive; the map of every level is relaxed before the next one. With
+/// ChartSurface::nearby, map_nearby() is tried first.
 /// @param chart connected, of genus 0, with a border; coordinates around 1.
 MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options);
 

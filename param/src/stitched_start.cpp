@@ -2,7 +2,6 @@
 #include "stitched_start.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 

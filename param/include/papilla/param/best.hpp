@@ -24,8 +24,8 @@ struct BestOptions {
   ProgressCallback progress;      ///< Told the fraction of the triangles that are mapped; may be empty.
   Deadline deadline;              ///< Charts that have no map by then are projected, the others are left as they are.
   ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
-  /// Another map of the same triangles, with other cuts: charts begin there where that leads to a valid map. For
-  /// callers that try one cut after the other. Not given: every chart begins with itself.
+  /// Another map of the same triangles, in millimetres, with other cuts: charts begin there where that leads to a valid
+  /// map. For callers that try one cut after the other. Null: every chart begins with itself.
   const CornerAttribute<Vec2>* nearby = nullptr;
   /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.
   double energy_limit = std::numeric_limits<double>::infinity();
