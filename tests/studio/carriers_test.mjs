@@ -7,7 +7,7 @@ import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'no
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { folder as made, launch, openUrl, text } from '../page/browser.mjs';
-import { allShown, twoFrames } from './page.mjs';
+import { allShown, pictureDone } from './page.mjs';
 import { end, start } from './studio.mjs';
 
 const [papilla, data, folder] = process.argv.slice(2);
@@ -69,8 +69,7 @@ try {
       const { left: x0, top: y0, width, height } = view.canvas.getBoundingClientRect();
       return wanted.map(([x, y]) => { const q = at(x, y).project(view.camera); return [x0 + (q.x + 1) / 2 * width, y0 + (1 - q.y) / 2 * height]; });
     }, places);
-    await page.waitForTimeout(500);
-    await twoFrames(page);
+    await pictureDone(page);
     const shot = await page.screenshot({ path: join(pictures, `${name}.png`) });
     [corner] = points;
     return points.map(([x, y]) => isRed(shot, x, y));

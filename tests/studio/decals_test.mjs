@@ -7,7 +7,7 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSyn
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { folder as made, launch, openUrl, text } from '../page/browser.mjs';
-import { allShown, dropFile, placeOn, twoFrames } from './page.mjs';
+import { allShown, dropFile, placeOn, pictureDone } from './page.mjs';
 import { end, start } from './studio.mjs';
 
 const [papilla, data, folder] = process.argv.slice(2);
@@ -63,7 +63,7 @@ try {
     return [left + (p.x + 1) / 2 * width, top + (1 - p.y) / 2 * height];
   }, [x, y]);
   const reds = async (name, places) => {
-    await twoFrames(page);
+    await pictureDone(page);
     const png = await page.screenshot({ path: join(pictures, `${name}.png`) });
     return Promise.all(places.map(async ([x, y]) => isRed(png, ...await onScreen(x, y))));
   };

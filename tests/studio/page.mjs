@@ -25,6 +25,14 @@ export const placeOn = (page, label) => page.evaluate((wanted) => {
 
 export const twoFrames = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
+/** Until the window shows the scene as it is, in its full resolution: however slow the processor is that draws it. */
+export async function pictureDone(page) {
+  await page.waitForFunction(() => !globalThis.studio.view.pace.isCoarse);
+  await twoFrames(page);
+  await page.evaluate(() => globalThis.studio.view.renderer.getContext().finish());
+  await twoFrames(page);
+}
+
 /** Drops a file on the scene. */
 export const dropFile = (page, name, type, bytes) => page.evaluate(([file, mime, base64]) => {
   const transfer = new DataTransfer(), canvas = document.getElementById('canvas');

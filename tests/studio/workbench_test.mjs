@@ -32,6 +32,19 @@ try {
     return studio.state.surfaces.filter((s) => studio.shown.get(studio.keyOf(s))?.name !== s.name).map(({ label }) => label);
   });
   assert.deepEqual(missed, []);
+  // Who has sat down while the scene came stays there; who has not moved is shown all of it.
+  const modes = await page.evaluate(async () => {
+    const { studio } = globalThis, all = studio.showSurfaces.bind(studio), found = [];
+    for (const meanwhile of [() => studio.view.seat(), () => {}]) {
+      studio.showSurfaces = async () => { await all(); meanwhile(); };
+      await studio.takeScene();
+      found.push(studio.view.mode);
+    }
+    delete studio.showSurfaces;
+    return found;
+  });
+  assert.deepEqual(modes, ['walk', 'orbit']);
+  await all();
   await page.waitForTimeout(500);
   await page.screenshot({ path: join(pictures, 'opened.png') });
   const tree = page.locator('#tree');

@@ -174,8 +174,9 @@ class Studio {
     this.decals.clear();
     this.carriers.clear();
     $('scene-file').textContent = this.scene.file;
+    const stood = this.view.placeOfCamera();
     await this.showSurfaces();
-    this.view.frame();
+    if (this.view.placeOfCamera().equals(stood)) this.view.frame();  // Who has moved meanwhile stays there.
   }
 
   keyOf(surface) { return `${surface.part}/${surface.slot}/${surface.uses[0]}`; }

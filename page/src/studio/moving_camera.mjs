@@ -30,6 +30,9 @@ export class MovingCamera {
     this.draw();
   }
 
+  /** Where it is and looks, as a matrix. */
+  placeOfCamera() { return new THREE.Matrix4().compose(this.camera.position, this.camera.quaternion, this.camera.scale); }
+
   near(radius) {
     this.camera.near = radius / 1000;
     this.camera.far = radius * 50;
