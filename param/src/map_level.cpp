@@ -2,7 +2,9 @@
 #include "map_level.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "corners_of_vertices.hpp"
 #include "map_descent.hpp"
@@ -61,6 +63,18 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
   }
   for (const RestShape& rest : level.rest) level.area += rest.area;
   level.border = border_of(level.triangles, level.vertices.size());
+  return level;
+}
+
+MapLevel whole_level(const ChartSurface& chart, std::vector<Vec2> uv) {
+  MapLevel level;
+  level.vertices.resize(uv.size());
+  std::iota(level.vertices.begin(), level.vertices.end(), Index{0});
+  level.triangles.assign(chart.triangles.begin(), chart.triangles.end());
+  level.rest = rest_shapes(chart.positions, chart.triangles);
+  for (const RestShape& shape : level.rest) level.area += shape.area;
+  level.border = border_of(level.triangles, uv.size());
+  level.uv = std::move(uv);
   return level;
 }
 

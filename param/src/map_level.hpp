@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "border_guard.hpp"
+#include "chart_pieces.hpp"
 #include "disk_hierarchy.hpp"
 #include "rest_shape.hpp"
 
@@ -30,6 +31,9 @@ struct MapLevel {
 /// @param uv of all vertices of the chart.
 MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> positions, std::span<const Vec2> uv,
                        LeastArea least_area);
+
+/// The whole chart, its triangles with their own shapes.
+MapLevel whole_level(const ChartSurface& chart, std::vector<Vec2> uv);
 
 /// Moves one vertex after the other to lower the symmetric Dirichlet energy, every one at most once per sweep, until a
 /// sweep gains less than `tolerance` of the energy. No triangle turns over.

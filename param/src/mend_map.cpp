@@ -2,6 +2,7 @@
 #include "mend_map.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "border_guard.hpp"
 #include "ring_kernel.hpp"
@@ -14,15 +15,20 @@ namespace {
 constexpr int k_rounds = 20, k_narrow = 6;
 
 /// By which part of the way: where the border meets itself, and where triangles are turned over.
-constexpr double k_drawn = 0.2, k_unfolded = 0.5;
+constexpr double k_drawn = 0.5, k_unfolded = 0.5;
+
+/// Longer stretches between edges of the border that meet are the borders of whole parts of the map, not slits.
+constexpr std::size_t k_most_between = 24;
+
+constexpr Index k_none = ~Index{0};
 
 class Mender {
  public:
   Mender(const ChartSurface& chart, const CornersOfVertices& corners, std::vector<Vec2>& uv)
-      : chart_(chart), corners_(corners), uv_(uv), on_border_(uv.size(), 0) {
+      : chart_(chart), corners_(corners), uv_(uv), edge_from_(uv.size(), k_none) {
     for (const auto& [from, to] : border_of(chart.triangles, uv.size())) {
+      edge_from_[from] = static_cast<Index>(border_.size());
       border_.push_back({from, to, {}, {}});
-      on_border_[from] = 1;
     }
   }
 
@@ -51,7 +57,7 @@ class Mender {
   void turn_back(const std::vector<Index>& vertices) {
     for (const Index v : vertices) {
       if (is_positive_around(v, uv_[v])) continue;
-      const Vec2 wanted = on_border_[v] ? by_shapes(v) : middle_around(v);
+      const Vec2 wanted = edge_from_[v] != k_none ? by_shapes(v) : middle_around(v);
       if (is_positive_around(v, wanted))
         uv_[v] = wanted;
       else if (!find_place(v, uv_[v]))
@@ -96,16 +102,37 @@ class Mender {
     return corners;
   }
 
+  /// Ends of the border's edges that meet, and all between two of them that are few edges apart: where the sides of a
+  /// slit have changed places, they meet in two edges alone.
   std::vector<Index> border_that_meets() {
     for (BorderEdge& edge : border_) edge.a = uv_[edge.from], edge.b = uv_[edge.to];
-    return points_that_meet(border_);
+    std::vector<Index> vertices;
+    for (const auto& [i, j] : edges_that_meet(border_))
+      for (const auto& [first, last] : {std::pair(i, j), std::pair(j, i)}) {
+        vertices.insert(vertices.end(), {border_[first].from, border_[first].to});
+        const std::vector<Index> between = border_between(first, last);
+        vertices.insert(vertices.end(), between.begin(), between.end());
+      }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  /// Vertices from the end of an edge of the border to the start of another one; none where these are many.
+  std::vector<Index> border_between(Index first, Index last) const {
+    std::vector<Index> vertices;
+    for (Index e = first; e != last; e = edge_from_[border_[e].to]) {
+      if (vertices.size() == k_most_between) return {};
+      vertices.push_back(border_[e].to);
+    }
+    return vertices;
   }
 
   Vec2 middle_around(Index v) const {
     const auto corners = corners_.of(v);
     Vec2 sum;
     for (const Index c : corners)
-      for (const Index k : {1, 2}) sum = sum + uv_[chart_.triangles[c / 3][(c % 3 + k) % 3]];
+      for (const Index k : {1U, 2U}) sum = sum + uv_[chart_.triangles[c / 3][(c % 3 + k) % 3]];
     return (0.5 / static_cast<double>(corners.size())) * sum;
   }
 
@@ -131,7 +158,7 @@ class Mender {
   const CornersOfVertices& corners_;
   std::vector<Vec2>& uv_;
   std::vector<BorderEdge> border_;
-  std::vector<char> on_border_;  ///< Per vertex.
+  std::vector<Index> edge_from_;  ///< Per vertex: the edge of the border that begins there.
 };
 
 }  // namespace

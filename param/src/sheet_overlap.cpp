@@ -201,24 +201,23 @@ bool border_proves_injective(const std::vector<BorderEdge>& border) {
   return true;
 }
 
-std::vector<Index> points_that_meet(const std::vector<BorderEdge>& border) {
+std::vector<std::array<Index, 2>> edges_that_meet(const std::vector<BorderEdge>& border) {
   Box box;
   for (const BorderEdge& e : border) box.add(e.a);
   const double tolerance = k_contact * box.extent();
   Grid grid = grid_for(box, border);
-  std::vector<Index> points;
+  std::vector<std::array<Index, 2>> pairs;
   for (Index i = 0; i < border.size(); ++i) {
     const Box b = box_of(border[i]);
     grid.any(b, [&](Index j) {
-      if (edges_conflict(border[i], border[j], tolerance))
-        points.insert(points.end(), {border[i].from, border[i].to, border[j].from, border[j].to});
+      if (edges_conflict(border[i], border[j], tolerance)) pairs.push_back({j, i});
       return false;
     });
     grid.insert(i, b);
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
 }
 
 bool overlaps_itself(const PlaneSheet& sheet) {

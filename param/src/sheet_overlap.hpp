@@ -43,8 +43,8 @@ bool interiors_meet(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b, 
 /// Since no triangle is flipped, a point's number of triangles is the winding number of the border around it.
 bool border_proves_injective(const std::vector<BorderEdge>& border);
 
-/// The names of the end points of edges that conflict, ascending, each once.
-std::vector<Index> points_that_meet(const std::vector<BorderEdge>& border);
+/// The places in the list of edges that conflict, the lower one first: all pairs, ascending, each once.
+std::vector<std::array<Index, 2>> edges_that_meet(const std::vector<BorderEdge>& border);
 
 /// Whether some point of the plane lies inside two triangles of the sheet, up to 1e-13 of the sheet's extent.
 /// Wherever two triangles overlap, the overlap region is bounded by images of the border, whose own triangle is one of

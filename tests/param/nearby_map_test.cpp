@@ -2,15 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 #include <vector>
 
+#include "adjacency.hpp"
+#include "border_guard.hpp"
 #include "drawn_seams.hpp"
 #include "mend_map.hpp"
+#include "nearby_map.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/param/automatic.hpp"
@@ -286,7 +292,86 @@ TEST(MendMap, TheBorderIsDrawnApart) {
   EXPECT_GE(moved.size(), 10u);
 }
 
-TEST(SheetOverlap, PointsThatMeetAreThoseOfAllPairs) {
+/// A plate of 24 x 16 cells with a slit along x = 12 up to y = 10 whose sides, and what lies behind them,
+/// have moved over each other by up to 2.8 cells but for its tip and its mouth.
+struct Pocket {
+  TriangleMesh open;
+  ChartSurface chart;
+  std::vector<Vec2> uv;
+
+  Pocket() {
+    const TriangleMesh mesh = test::plane(24, 16, 24, 16);
+    const std::vector<double> costs(3 * mesh.triangles.size(), 0);
+    const SeamMesh seams(mesh, costs);
+    std::vector<std::uint8_t> seam = test::border_seams(seams);
+    test::draw_seam(seams, seam, {12, 0, 0}, {12, 10, 0});
+    open = cut_open(mesh, charts_between(seams, seam));
+    chart.positions = open.positions;
+    chart.triangles = open.triangles;
+    std::vector<double> side(open.positions.size(), 0);
+    for (const Triangle& t : open.triangles)
+      for (const Index v : t)
+        for (const Index w : t) side[v] += open.positions[w].x - 12;
+    for (Index v = 0; v < side.size(); ++v) {
+      const Vec3 p = open.positions[v];
+      const double over = p.y > 9.5 ? 0 : p.y < 2.5 ? -0.1 : 1.4;
+      const double along = over * std::exp(-std::abs(p.x - 12) / 5);
+      uv.push_back({p.x + (side[v] > 0 ? -along : along), p.y});
+    }
+  }
+};
+
+TEST(MendMap, SidesOfASlitThatHaveChangedPlacesAreDrawnBack) {
+  Pocket pocket;
+  const std::vector<Vec2> before = pocket.uv;
+  std::vector<BorderEdge> border;
+  for (const auto& [from, to] : border_of(pocket.open.triangles, pocket.uv.size()))
+    border.push_back({from, to, pocket.uv[from], pocket.uv[to]});
+  ASSERT_FALSE(border_proves_injective(border));
+  ASSERT_TRUE(mend_map(pocket.chart, CornersOfVertices(pocket.open.triangles, pocket.uv.size()), pocket.uv));
+  for (BorderEdge& edge : border) edge.a = pocket.uv[edge.from], edge.b = pocket.uv[edge.to];
+  EXPECT_TRUE(border_proves_injective(border));
+  for (const auto& [a, b, c] : pocket.open.triangles)
+    EXPECT_GT(cross(pocket.uv[b] - pocket.uv[a], pocket.uv[c] - pocket.uv[a]), 0);
+  for (Index v = 0; v < pocket.uv.size(); ++v) {
+    if (std::abs(pocket.open.positions[v].x - 12) > 6) {
+      EXPECT_EQ(norm(pocket.uv[v] - before[v]), 0) << "away from the slit";
+    }
+  }
+}
+
+TEST(NearbyMap, ARoughStartIsSmoothedBeforeNewtonsMethod) {
+  // Triangles of next to no area in the map that is nearby: Newton's method alone takes 20 steps.
+  const TriangleMesh mesh = test::hemisphere_mesh(20, 48, 100);
+  const ChartSet charts = test::one_chart(mesh);
+  const Adjacency across = connect_triangles(mesh);
+  std::vector<Index> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  ChartSurface chart = ChartCutter(mesh, across, charts).cut(0, all);
+  const Flattening flat = flatten_best(mesh, charts, exact());
+  std::mt19937 random(3);
+  std::uniform_int_distribution<std::size_t> any(0, mesh.triangles.size() - 1);
+  std::vector<Vec2> uv(mesh.positions.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) uv[mesh.triangles[t][k]] = flat.uv.values[flat.uv.indices[t][k]];
+  std::vector<char> moved(uv.size(), 0);
+  for (int i = 0; i < 60; ++i) {
+    const Triangle& t = mesh.triangles[any(random)];
+    if (std::any_of(t.begin(), t.end(), [&](Index v) { return moved[v] != 0; })) continue;
+    moved[t[0]] = moved[t[1]] = moved[t[2]] = 1;
+    uv[t[0]] = 1e-3 * uv[t[0]] + 0.4995 * (uv[t[1]] + uv[t[2]]);
+  }
+  for (const Triangle& t : mesh.triangles) chart.nearby.push_back({uv[t[0]], uv[t[1]], uv[t[2]]});
+  MultilevelOptions options;
+  options.tolerance = 1e-4;
+  const std::optional<MultilevelMap> map = map_nearby(chart, options);
+  ASSERT_TRUE(map);
+  EXPECT_EQ(map->stop, StopReason::converged);
+  EXPECT_LE(map->trace.size(), 4u);
+  EXPECT_NEAR(map->trace.back().error, flat.trace.back().error, 1e-3);
+}
+
+TEST(SheetOverlap, EdgesThatMeetAreThoseOfAllPairs) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(0, 1);
   for (int run = 0; run < 20; ++run) {
@@ -295,13 +380,11 @@ TEST(SheetOverlap, PointsThatMeetAreThoseOfAllPairs) {
       const Vec2 a{any(random), 3 * any(random)};
       border.push_back({2 * i, 2 * i + 1, a, a + Vec2{0.1 * any(random), 0.1 * any(random)}});
     }
-    std::set<Index> expected;
-    for (std::size_t i = 0; i < border.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (edges_conflict(border[i], border[j], 1e-13))
-          expected.insert({border[i].from, border[i].to, border[j].from, border[j].to});
-    const std::vector<Index> found = points_that_meet(border);
-    EXPECT_EQ(std::vector<Index>(expected.begin(), expected.end()), found) << run;
+    std::vector<std::array<Index, 2>> expected;
+    for (Index i = 0; i < border.size(); ++i)
+      for (Index j = i + 1; j < border.size(); ++j)
+        if (edges_conflict(border[i], border[j], 1e-13)) expected.push_back({i, j});
+    EXPECT_EQ(expected, edges_that_meet(border)) << run;
   }
 }
 
