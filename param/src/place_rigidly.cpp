@@ -10,7 +10,7 @@ namespace papilla::param_detail {
 namespace {
 
 /// As often triangles may turn once more.
-constexpr int k_turns = 6;
+constexpr int k_turns = 3;
 
 /// What holds a vertex that stays, over what holds triangles together; and what holds the others, where nothing stays.
 constexpr double k_hold = 1e8, k_anchor = 1e-9;

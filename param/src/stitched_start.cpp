@@ -13,8 +13,8 @@
 namespace papilla::param_detail {
 namespace {
 
-/// Vertices around closed seams of n that are placed anew: as far as they are long on both sides, and some.
-constexpr std::size_t k_around = 4, k_least_around = 300;
+/// Vertices around closed seams of n that are placed anew: as far as half their length on both sides, and some.
+constexpr std::size_t k_around = 1, k_least_around = 100;
 
 /// More pieces are not laid one by one: all triangles are put together anew.
 constexpr Index k_most_pieces = 64;
