@@ -64,6 +64,14 @@ std::vector<double> defects_from(const Piece& piece, const std::vector<std::arra
 
 std::vector<double> angle_defects(const Piece& piece) { return defects_from(piece, all_angles(piece)); }
 
+/// Rows of nodes that a cut takes out have nothing but a one on the diagonal.
+struct ChartField::System {
+  Matrix matrix;                  ///< Its upper half, which the factorization reads as it is.
+  std::vector<double*> values;    ///< Where the links have their entries; none for the border.
+  std::vector<double*> diagonal;  ///< Per row.
+  Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> factor;
+};
+
 ChartField::ChartField(const Piece& piece) {
   cluster(piece);
   const std::vector<std::array<double, 3>> angles = all_angles(piece);
@@ -78,8 +86,11 @@ ChartField::ChartField(const Piece& piece) {
     for (const Index v : piece.triangles[t]) (node_[v] == k_none ? border_area_ : area_[node_[v]]) += third;
   }
   order();
+  make_system();
   solve({});
 }
+
+ChartField::~ChartField() = default;
 
 /// Grows clusters of equally many vertices over the edges, in the order of vertices.
 void ChartField::cluster(const Piece& piece) {
@@ -144,86 +155,104 @@ void ChartField::order() {
   pattern.setFromTriplets(entries.begin(), entries.end());
   Eigen::AMDOrdering<int>::PermutationType permutation;
   Eigen::AMDOrdering<int>()(pattern.selfadjointView<Eigen::Lower>(), permutation);
-  order_.assign(permutation.indices().data(), permutation.indices().data() + permutation.size());
+  row_.resize(centre_.size());
+  for (int r = 0; r < size; ++r) row_[static_cast<std::size_t>(permutation.indices()[r])] = r;
+}
+
+void ChartField::make_system() {
+  const auto size = static_cast<int>(centre_.size());
+  const auto rows_of = [&](const Link& link) { return std::minmax(row_[link.a], row_[link.b]); };
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(links_.size() + centre_.size());
+  for (const Link& link : links_)
+    if (link.b != k_none) entries.emplace_back(rows_of(link).first, rows_of(link).second, 0);
+  for (int r = 0; r < size; ++r) entries.emplace_back(r, r, 0);
+  system_ = std::make_unique<System>();
+  system_->matrix.resize(size, size);
+  system_->matrix.setFromTriplets(entries.begin(), entries.end());
+  for (const Link& link : links_)
+    system_->values.push_back(link.b == k_none ? nullptr
+                                               : &system_->matrix.coeffRef(rows_of(link).first, rows_of(link).second));
+  for (int r = 0; r < size; ++r) system_->diagonal.push_back(&system_->matrix.coeffRef(r, r));
+  system_->factor.analyzePattern(system_->matrix);
 }
 
 void ChartField::solve(const std::vector<std::uint8_t>& cut_vertex) {
   std::vector<std::uint8_t> fixed(centre_.size(), 0);
   for (Index v = 0; v < cut_vertex.size(); ++v)
     if (cut_vertex[v] && node_[v] != k_none) fixed[node_[v]] = 1;
-  std::vector<int> row(centre_.size(), -1);
-  int rows = 0;
-  for (const int n : order_)
-    if (!fixed[static_cast<std::size_t>(n)]) row[static_cast<std::size_t>(n)] = rows++;
+  const auto free = static_cast<std::size_t>(std::find(fixed.begin(), fixed.end(), 0) - fixed.begin());
+  solution_.u.assign(centre_.size(), 0);
+  if (free == fixed.size()) return sum_up();
 
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(3 * links_.size());
+  Matrix& matrix = system_->matrix;
+  std::fill_n(matrix.valuePtr(), matrix.nonZeros(), 0.0);
+  const auto diagonal = [&](Index n) -> double& { return *system_->diagonal[static_cast<std::size_t>(row_[n])]; };
   bool grounded = false;
-  for (const Link& link : links_) {
-    const int a = row[link.a], b = link.b == k_none ? -1 : row[link.b];
-    if (a >= 0) entries.emplace_back(a, a, link.weight);
-    if (b >= 0) entries.emplace_back(b, b, link.weight);
-    if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), -link.weight);
-    grounded = grounded || (a >= 0) != (b >= 0);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& link = links_[i];
+    const bool a = !fixed[link.a], b = link.b != k_none && !fixed[link.b];
+    if (a) diagonal(link.a) += link.weight;
+    if (b) diagonal(link.b) += link.weight;
+    if (a && b) *system_->values[i] -= link.weight;
+    grounded = grounded || a != b;
   }
-  Eigen::VectorXd right(rows);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(matrix.rows());
   const double total_charge = std::accumulate(charge_.begin(), charge_.end(), 0.0);
   const double total_area = std::accumulate(area_.begin(), area_.end(), border_area_);
-  for (std::size_t n = 0; n < row.size(); ++n)
-    if (row[n] >= 0)
-      right[row[n]] = charge_[n] - (grounded || !(total_area > 0) ? 0 : total_charge * area_[n] / total_area);
-  // Nothing holds a closed surface: the scale of its first node is zero.
-  const auto free = std::find_if(row.begin(), row.end(), [](int r) { return r >= 0; });
-  const int first = free == row.end() ? 0 : *free;
-  for (int r = 0; r < rows; ++r) entries.emplace_back(r, r, r == first && !grounded ? 1.0 : 1e-12);
-  Matrix matrix(rows, rows);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  u_.assign(centre_.size(), 0);
-  if (rows > 0) {
-    const Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(matrix);
-    const Eigen::VectorXd solution = factor.solve(right);
-    for (std::size_t n = 0; n < row.size(); ++n)
-      if (row[n] >= 0 && std::isfinite(solution[row[n]])) u_[n] = solution[row[n]];
+  for (Index n = 0; n < fixed.size(); ++n) {
+    if (fixed[n]) {
+      diagonal(n) = 1;
+      continue;
+    }
+    right[row_[n]] = charge_[n] - (grounded || !(total_area > 0) ? 0 : total_charge * area_[n] / total_area);
+    // Nothing holds a closed surface: the scale of its first node is zero.
+    diagonal(n) += n == free && !grounded ? 1.0 : 1e-12;
   }
+  system_->factor.factorize(matrix);
+  const Eigen::VectorXd found = system_->factor.solve(right);
+  for (Index n = 0; n < fixed.size(); ++n)
+    if (!fixed[n] && std::isfinite(found[row_[n]])) solution_.u[n] = found[row_[n]];
   sum_up();
 }
 
 void ChartField::sum_up() {
+  auto& [u, mean, distortion, squared_scale] = solution_;
   double total = border_area_;
-  mean_ = 0;
-  for (std::size_t n = 0; n < u_.size(); ++n) {
+  mean = distortion = squared_scale = 0;
+  for (std::size_t n = 0; n < u.size(); ++n) {
     total += area_[n];
-    mean_ += area_[n] * u_[n];
+    mean += area_[n] * u[n];
   }
-  distortion_ = squared_scale_ = 0;
   if (!(total > 0)) return;
-  mean_ /= total;
-  const auto excess = [](double u) {
-    const double s = std::sinh(std::clamp(u, -20.0, 20.0));
+  mean /= total;
+  const auto excess = [](double scale) {
+    const double s = std::sinh(std::clamp(scale, -20.0, 20.0));
     return 8 * s * s;
   };
-  distortion_ = border_area_ * excess(mean_);
-  for (std::size_t n = 0; n < u_.size(); ++n) {
-    distortion_ += area_[n] * excess(u_[n] - mean_);
-    squared_scale_ += area_[n] * excess(u_[n]);
+  distortion = border_area_ * excess(mean);
+  for (std::size_t n = 0; n < u.size(); ++n) {
+    distortion += area_[n] * excess(u[n] - mean);
+    squared_scale += area_[n] * excess(u[n]);
   }
-  distortion_ /= total;
-  squared_scale_ /= total;
+  distortion /= total;
+  squared_scale /= total;
 }
 
 ChartField::Extremes ChartField::extremes() const {
   Extremes result;
-  if (u_.empty()) return result;
-  const auto [low, high] = std::minmax_element(u_.begin(), u_.end());
-  if (*high > 0) result.largest = centre_[static_cast<std::size_t>(high - u_.begin())];
-  if (*low < 0) result.smallest = centre_[static_cast<std::size_t>(low - u_.begin())];
+  const std::vector<double>& u = solution_.u;
+  if (u.empty()) return result;
+  const auto [low, high] = std::minmax_element(u.begin(), u.end());
+  if (*high > 0) result.largest = centre_[static_cast<std::size_t>(high - u.begin())];
+  if (*low < 0) result.smallest = centre_[static_cast<std::size_t>(low - u.begin())];
   return result;
 }
 
 std::vector<Vec2> ChartField::lay_out(const Piece& piece, const std::vector<Index>& outer) const {
   std::vector<double> turning = defect_;
   for (const Link& link : links_)
-    if (link.b == k_none) turning[link.border_vertex] += link.weight * u_[link.a];
+    if (link.b == k_none) turning[link.border_vertex] += link.weight * solution_.u[link.a];
   double sum = 0, perimeter = 0;
   for (const Index h : outer) {
     sum += turning[piece.from(h)];

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
@@ -19,18 +21,28 @@ std::vector<double> angle_defects(const Piece& piece);
 class ChartField {
  public:
   explicit ChartField(const Piece& piece);
+  ~ChartField();
+
+  /// u and what is read off it.
+  struct Solution {
+    std::vector<double> u;  ///< Per node.
+    double mean = 0, distortion = 0, squared_scale = 0;
+  };
 
   /// Makes these vertices border, too, where a cut would run.
   void solve(const std::vector<std::uint8_t>& cut_vertex);
+  const Solution& solution() const noexcept { return solution_; }
+  /// Takes up what was solved before.
+  void restore(Solution solution) { solution_ = std::move(solution); }
 
   /// Area mean of σ1² + σ2² + σ1⁻² + σ2⁻² - 4 = 8 sinh² (u - mean).
-  double distortion() const noexcept { return distortion_; }
+  double distortion() const noexcept { return solution_.distortion; }
   /// The same of u itself, without the mean taken off.
-  double squared_scale() const noexcept { return squared_scale_; }
+  double squared_scale() const noexcept { return solution_.squared_scale; }
   /// angle_defects() of a vertex.
   double defect(Index v) const noexcept { return defect_[v]; }
   /// u at a vertex.
-  double scale(Index v) const noexcept { return node_[v] == k_none ? 0 : u_[node_[v]]; }
+  double scale(Index v) const noexcept { return node_[v] == k_none ? 0 : solution_.u[node_[v]]; }
   /// Where u is largest, if anywhere above zero, and smallest, if below.
   struct Extremes {
     Index largest = k_none, smallest = k_none;
@@ -50,15 +62,20 @@ class ChartField {
   void cluster(const Piece& piece);
   void connect(const Piece& piece, const std::vector<std::array<double, 3>>& angles);
   void order();
+  /// The system's matrix for no cut at all: that of any cut has zeros more.
+  void make_system();
   void sum_up();
 
   std::vector<Index> node_;     ///< Per vertex; k_none on the border.
   std::vector<Index> centre_;   ///< A vertex of each node.
-  std::vector<int> order_;      ///< Of nodes, for elimination.
+  std::vector<int> row_;        ///< Per node, in an order that leaves little fill-in.
   std::vector<double> defect_;  ///< Per vertex.
-  std::vector<double> charge_, area_, u_;
+  std::vector<double> charge_, area_;
   std::vector<Link> links_;
-  double border_area_ = 0, mean_ = 0, distortion_ = 0, squared_scale_ = 0;
+  double border_area_ = 0;
+  struct System;
+  std::unique_ptr<System> system_;
+  Solution solution_;
 };
 
 /// A chart by its outer border, flattened: what neighbours are fitted against.

@@ -42,8 +42,8 @@ class Reliever {
     const double price = seam_cost / std::sqrt(piece_.area());
     std::vector<Index> taken;
     for (int i = 0; i < k_max_cuts; ++i) {
-      const double before = field_.distortion(), spread = field_.squared_scale();
-      if (before < k_negligible * seam_cost) break;
+      ChartField::Solution before = field_.solution();
+      if (before.distortion < k_negligible * seam_cost) break;
       const ChartField::Extremes extremes = field_.extremes();
       std::vector<Cut> cuts;
       if (extremes.largest != k_none) {
@@ -52,22 +52,22 @@ class Reliever {
       }
       if (extremes.smallest != k_none) cuts.push_back(across(extremes.smallest));
       const Cut* best = nullptr;
+      ChartField::Solution with_best;
       double best_gain = k_negligible * seam_cost;
       for (const Cut& cut : cuts) {
         if (cut.halfedges.empty()) continue;
         solve_with(cut);
-        double gain = before - field_.distortion();
-        if (before > k_severe) gain = std::max(gain, 0.25 * (spread - field_.squared_scale()));
+        double gain = before.distortion - field_.distortion();
+        if (before.distortion > k_severe) gain = std::max(gain, 0.25 * (before.squared_scale - field_.squared_scale()));
         gain -= price * cut.cost;
-        if (gain > best_gain) best_gain = gain, best = &cut;
+        if (gain > best_gain) best_gain = gain, best = &cut, with_best = field_.solution();
       }
+      field_.restore(best ? std::move(with_best) : std::move(before));
       if (!best) break;
       mark(*best, cut_);
       mark(*best, border_);
       taken.insert(taken.end(), best->halfedges.begin(), best->halfedges.end());
-      field_.solve(cut_);
     }
-    field_.solve(cut_);
     return taken;
   }
 
