@@ -99,8 +99,9 @@ SeamState BoundKeeper::moved(SeamState state, const DistortionBound& bound) {
 
 std::optional<SeamState> BoundKeeper::finished(SeamState state) {
   std::optional<SeamState> kept = keeps(state) ? std::move(state) : lengthened(std::move(state));
-  if (kept) *kept = shortened(std::move(*kept));
-  return kept;
+  if (!kept) return {};
+  std::vector<double> doubt(mesh_.opposite.size(), 1);
+  return shorten_seams(mesh_, std::move(*kept), bound_, map_, doubt, deadline_);
 }
 
 /// Keeps the state where it is of use. @return whether the bound is kept.

@@ -26,8 +26,9 @@ constexpr double k_low = 0.93, k_high = 1.01, k_more = 0.05;
 /// 4, and longer by so much for what is missing, for running on does worse than closing.
 constexpr double k_shorter = 0.15, k_longer = 6;
 
-/// Beyond this part of what D - 4 may be seams are not brought within the bound.
-constexpr double k_most_part = 1.5;
+/// Beyond this part of what D - 4 may be seams are not brought within the bound. Where others are within it, those that
+/// cost so much less are brought there, too, from further away: the coarse bound may have been moved too far.
+constexpr double k_most_part = 1.5, k_most_part_then = 2.5, k_hope = 1.2;
 
 /// What comes of it is given up where it costs so many times what was lifted: the coarse mesh had no place for such
 /// seams.
@@ -86,16 +87,20 @@ class CoarseSearch {
     return state.cost_mm * (part > 1 ? 1 + k_longer * (part - 1) : std::pow(part, k_shorter));
   }
 
-  /// What was lifted and is worth most, on the fine mesh.
+  /// What was lifted and is worth most, on the fine mesh; others too, where they may come out cheaper.
   std::optional<SeamState> finished() {
     std::stable_sort(lifted_.begin(), lifted_.end(),
                      [&](const auto& a, const auto& b) { return cost_when_finished(a) < cost_when_finished(b); });
-    std::erase_if(lifted_, [&](const SeamState& state) { return part_of(state) > k_most_part; });
     double least = std::numeric_limits<double>::infinity();
-    for (const SeamState& state : lifted_) least = std::min(least, state.cost_mm);
     for (const SeamState& state : lifted_)
-      if (auto done = fine_.finished(state); done && (deadline_.passed() || done->cost_mm <= k_too_dear * least))
-        return done;
+      if (part_of(state) <= k_most_part) least = std::min(least, state.cost_mm);
+    std::optional<SeamState> best;
+    for (const SeamState& state : lifted_) {
+      if (best && (deadline_.passed() || !(k_hope * state.cost_mm < best->cost_mm))) continue;
+      if (part_of(state) > (best ? k_most_part_then : k_most_part)) continue;
+      if (auto done = fine_.finished(state); done && !(best && best->cost_mm <= done->cost_mm)) best = std::move(done);
+    }
+    if (best && (deadline_.passed() || best->cost_mm <= k_too_dear * least)) return best;
     if (!deadline_.passed() || lifted_.empty()) return {};
     return *std::min_element(lifted_.begin(), lifted_.end(),
                              [](const auto& a, const auto& b) { return a.distortion < b.distortion; });

@@ -19,10 +19,10 @@ constexpr double k_of_slit = std::numbers::pi / 4, k_of_joint = 1.5;
 
 /// The part of the energy that is left which one round may take. Where that is too little for any closing, more is
 /// tried: what is foreseen is rough.
-constexpr double k_share = 0.7, k_next_share = 1.5, k_most_share = 2.5;
+constexpr double k_share = 0.7, k_next_share = 1.5, k_most_share = 2;
 
 /// A round is worth a map when it would save this fraction of all seams.
-constexpr double k_least_saving = 1e-3;
+constexpr double k_least_saving = 3e-3;
 constexpr int k_most_rounds = 30;
 
 /// How far one round's surprise moves what a place is thought to cost, and how far that may go.

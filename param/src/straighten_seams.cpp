@@ -23,7 +23,7 @@ constexpr double k_worthwhile = 0.998;
 constexpr double k_zigzag = 0.8;
 
 /// As often half of the new ways is given up where all of them break the bound.
-constexpr int k_attempts = 4;
+constexpr int k_attempts = 2;
 
 struct NewWay {
   std::vector<Index> before, after;  ///< Half-edges.
