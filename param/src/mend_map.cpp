@@ -122,7 +122,7 @@ class Mender {
   std::vector<Index> border_between(Index first, Index last) const {
     std::vector<Index> vertices;
     for (Index e = first; e != last; e = edge_from_[border_[e].to]) {
-      if (vertices.size() == k_most_between) return {};
+      if (e == k_none || vertices.size() == k_most_between) return {};
       vertices.push_back(border_[e].to);
     }
     return vertices;
