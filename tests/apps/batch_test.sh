@@ -128,6 +128,7 @@ has result.json '"messages": "papilla: error: bad.stl'
 slow='{"command": ["papilla", "evaluate", "contact", "-o", "slow", "--json", "slow.json"]}'
 for signal in INT TERM; do
   rm -rf line.glb slow
+  : >out.txt  # what an earlier one has done is not waited for
   printf '%s\n' "$slow" "$good" '{"command": ["papilla", "evaluate", "contact", "-o", "later", "--json", "later.json"]}' \
     '{"command": ["papilla", "repair", "in/one.stl", "-o", "after.glb"]}' >lines.jsonl
   "$papilla" batch lines.jsonl -j 2 >out.txt 2>err.txt </dev/null &
