@@ -14,7 +14,7 @@ namespace {
 using namespace param_detail;
 
 /// Maps that a search usually makes of the mesh that it begins with, and of each finer one.
-constexpr double k_usual_maps = 100, k_usual_maps_of_finer = 10;
+constexpr double k_usual_maps = 100, k_usual_maps_of_finer = 6;
 
 /// Of all of them.
 double usual_triangles(const TriangleMesh& mesh, const SeamTools& tools) {

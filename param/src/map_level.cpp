@@ -78,6 +78,10 @@ MapLevel whole_level(const ChartSurface& chart, std::vector<Vec2> uv) {
   return level;
 }
 
+BorderBarrier barrier_of(const MapLevel& level) {
+  return barrier_of(level.border, level.uv, level.area, level.triangles.size());
+}
+
 int relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
   const CornersOfVertices corners(level.triangles, level.vertices.size());
   std::optional<BorderGuard> guard;

@@ -17,7 +17,7 @@ struct Sliver {
   RestShape shape;
 };
 
-/// One state of a hierarchy as a mesh of its own, and the map of it.
+/// One state of a hierarchy, or a whole chart, as a mesh of its own, and the map of it.
 struct MapLevel {
   std::vector<Index> vertices;  ///< Their numbers in the chart.
   std::vector<Triangle> triangles;
@@ -34,6 +34,9 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
 
 /// The whole chart, its triangles with their own shapes.
 MapLevel whole_level(const ChartSurface& chart, std::vector<Vec2> uv);
+
+/// What keeps the level's border away from itself, as the map is now.
+BorderBarrier barrier_of(const MapLevel& level);
 
 /// Moves one vertex after the other to lower the symmetric Dirichlet energy, every one at most once per sweep, until a
 /// sweep gains less than `tolerance` of the energy. No triangle turns over.

@@ -367,11 +367,7 @@ class Multilevel {
 
   bool is_deep() const { return mean_energy_ > k_deep_energy; }
 
-  static BorderBarrier make_barrier(const MapLevel& level) {
-    return barrier_of(level.border, level.uv, level.area, level.triangles.size());
-  }
-
-  static bool is_simple(const MapLevel& level) { return make_barrier(level).is_simple(level.uv); }
+  static bool is_simple(const MapLevel& level) { return barrier_of(level).is_simple(level.uv); }
 
   void minimise(MapLevel& level) {
     const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= options_.newton_vertices;
@@ -401,7 +397,7 @@ class Multilevel {
       descent.leave_when_blocked = i < k_most_unblocked;
       descent.deadline = options_.deadline;
       const double begin = clock_.seconds();
-      const BorderBarrier barrier = make_barrier(level);
+      const BorderBarrier barrier = barrier_of(level);
       const DescentResult result =
           descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
       mean_energy_ = result.energy / level.area;

@@ -31,11 +31,10 @@ std::optional<MultilevelMap> map_nearby(const ChartSurface& chart, const Multile
   if (!start) return {};
   MapLevel level = whole_level(chart, std::move(*start));
   const SymmetricDirichlet energy(level.rest);
-  const auto barrier_now = [&] { return barrier_of(level.border, level.uv, level.area, level.triangles.size()); };
-  if (!barrier_now().is_simple(level.uv)) return {};
+  if (!barrier_of(level).is_simple(level.uv)) return {};
   if (total_energy({level.triangles, &energy, nullptr}, level.uv) > k_rough * level.area)
     relax(level, k_sweeps, k_relax_tolerance, true);
-  const BorderBarrier barrier = barrier_now();
+  const BorderBarrier barrier = barrier_of(level);
   DescentOptions descent;
   descent.max_iterations = options.max_iterations;
   descent.tolerance = k_finer * options.tolerance;

@@ -63,10 +63,11 @@ struct BestOptions {
 /// steps. From the first level on whose border runs into itself, a barrier between the edges of the border keeps it
 /// apart; where vertices find no room then, the map begins again from an earlier level or a finer base. With `nearby`
 /// Newton's steps begin at that map instead: where seams are closed, the triangles around are put together as rigidly
-/// as they go (O. Sorkine, M. Alexa, 2007), where they are opened, their sides are drawn apart, and the border is kept
-/// apart from the first step on. Such a chart may end in another local optimum, better more often than not. Cost: O(n)
-/// for coarsening and relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the factorization
-/// and sums run in parallel; the result does not depend on the number of threads. Trace: error = E / ΣA, from the first
+/// as they go (O. Sorkine, M. Alexa, 2007), where they are opened, their sides are drawn apart, what is rough then is
+/// smoothed by sweeps over the vertices, and the border is kept apart from the first step on. Such a chart may end in
+/// another local optimum, better more often than not. Cost: O(n) for coarsening and relaxing, O(n^1.5) per Newton step;
+/// about 2 kB per vertex. Charts, branches of the factorization and sums run in parallel; the result does not depend on
+/// the number of threads. Trace: error = E / ΣA, from the first
 /// map of the whole chart on. Papers: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M.
 /// Rabinovich et al., Scalable locally injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith
 /// et al., Analytic eigensystems for isotropic distortion energies, 2019.
