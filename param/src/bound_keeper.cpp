@@ -30,21 +30,17 @@ constexpr double k_infinity = std::numeric_limits<double>::infinity();
 /// Closing and straightening go on while they bring the seams below this part of what they were.
 constexpr double k_worthwhile = 0.98;
 
-/// Costs below the last one that keeps the bound that are tried, too.
-constexpr int k_generous = 1;
-
-/// States whose seams are shortened, of those with and without seams along features.
-constexpr std::size_t k_starts = 3;
-
 /// What is remembered of maps, in triangles of all of them: 8 bytes each; where uv are remembered, too, they count as
 /// so many more.
 constexpr std::size_t k_most_remembered = 20'000'000;
 constexpr std::size_t k_whole = 6;
 
-/// States of fewer seams whose D - 4 is at most this many times what it may be are brought within the bound, too: the
-/// cheapest of them.
+/// States of fewer seams whose D - 4 is at most this many times what it may be are brought within the bound, too.
 constexpr double k_near = 2;
-constexpr std::size_t k_near_starts = 2;
+
+/// What came of a coarse mesh is good where it costs less than so many times what was lifted: it had a place for such
+/// seams. Where there is no other coarse mesh, it has to be worse before the whole mesh is searched.
+constexpr double k_dear = 1.3, k_too_dear = 1.5;
 
 /// Seams for another bound are searched on where it leaves so much more of D - 4, or they are dearer by as much.
 constexpr double k_much = 1.1;
@@ -58,15 +54,34 @@ constexpr double k_halved = 0.5;
 
 BoundKeeper::BoundKeeper(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
                          const Deadline& deadline, SeamTrace& trace)
-    : mesh_(mesh, tools.seam_costs), bound_(bound), tools_(tools), deadline_(deadline), trace_(trace) {}
+    : mesh_(mesh, tools.seam_costs),
+      bound_(bound),
+      tools_(tools),
+      extent_(tools.brief ? k_brief : k_thorough),
+      deadline_(deadline),
+      trace_(trace) {}
 
 SeamState BoundKeeper::search(const Calibrate& calibrate) {
-  if (tools_.coarse) {
-    if (std::optional<SeamState> state = seams_from_coarse(*this, bound_, *tools_.coarse, deadline_, trace_)) {
-      if (calibrate) *state = moved(std::move(*state), calibrate(*state));
-      return std::move(*state);
-    }
+  std::optional<SeamState> best;
+  double price = k_infinity;
+  for (std::size_t attempt = 0; tools_.coarse && price > k_dear && !deadline_.passed(); ++attempt) {
+    const CoarseSurface* surface = tools_.coarse(attempt);
+    if (!surface) break;
+    CoarseSeams found = seams_from_coarse(*this, bound_, *surface, deadline_, trace_);
+    price = std::min(price, found.price);
+    if (found.state && !(best && best->cost_mm <= found.state->cost_mm)) best = std::move(found.state);
   }
+  if (!best || (price > k_too_dear && !deadline_.passed())) {
+    SeamState found = search_mesh(calibrate);
+    return best && keeps(*best) && !(keeps(found) && found.cost_mm <= best->cost_mm) ? std::move(*best) : found;
+  }
+  if (!calibrate) return std::move(*best);
+  const DistortionBound bound = calibrate(*best);
+  return moved(std::move(*best), bound);
+}
+
+/// Without coarse meshes.
+SeamState BoundKeeper::search_mesh(const Calibrate& calibrate) {
   for (const bool feature_seams : {true, false}) {
     feature_seams_ = feature_seams;
     kept_.clear();
@@ -168,7 +183,8 @@ void BoundKeeper::search_cost() {
   }
   if (!deadline_.passed() && !leave_same_seams(low, high)) try_cost(std::sqrt(low * high));
   // Of too many seams, others can be closed than are missing where there are fewer.
-  for (int i = 0; i < k_generous && low / k_step >= k_least_cost && !deadline_.passed(); ++i) try_cost(low /= k_step);
+  for (int i = 0; i < extent_.generous && low / k_step >= k_least_cost && !deadline_.passed(); ++i)
+    try_cost(low /= k_step);
 }
 
 bool BoundKeeper::leave_same_seams(double low, double high) {
@@ -229,7 +245,7 @@ void BoundKeeper::lengthen() {
   for (const SeamState& start : starts_) least = std::min(least, start.cost_mm);
   std::erase_if(near_, [&](const SeamState& state) { return !(state.cost_mm < least); });
   std::stable_sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) { return a.cost_mm < b.cost_mm; });
-  for (std::size_t i = 0; i < near_.size() && i < k_near_starts; ++i)
+  for (std::size_t i = 0; i < near_.size() && i < extent_.near_starts; ++i)
     if (auto state = lengthened(std::move(near_[i]))) starts_.push_back(std::move(*state));
   near_.clear();
 }
@@ -238,7 +254,7 @@ void BoundKeeper::lengthen() {
 void BoundKeeper::keep_cheapest() {
   std::stable_sort(kept_.begin(), kept_.end(),
                    [](const SeamState& a, const SeamState& b) { return a.cost_mm < b.cost_mm; });
-  for (std::size_t i = 0, taken = 0; i < kept_.size() && taken < k_starts; ++i) {
+  for (std::size_t i = 0, taken = 0; i < kept_.size() && taken < extent_.starts; ++i) {
     const auto same = [&](const SeamState& start) { return start.seam == kept_[i].seam; };
     if (std::any_of(starts_.begin(), starts_.end(), same)) continue;
     starts_.push_back(std::move(kept_[i]));
@@ -343,7 +359,7 @@ SeamState BoundKeeper::exchanged(SeamState state) {
     state = exchange_seams(mesh_, std::move(state), bound_, map_, map_fully_, deadline_);
     before = state.cost_mm;
     state = reconnected(std::move(state));
-    state = move_tips(mesh_, std::move(state), bound_, map_, map_fully_, deadline_);
+    if (extent_.moves_tips) state = move_tips(mesh_, std::move(state), bound_, map_, map_fully_, deadline_);
   }
   return straighten_seams(mesh_, std::move(state), bound_, map_, deadline_);
 }

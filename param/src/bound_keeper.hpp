@@ -26,7 +26,8 @@ class BoundKeeper {
   /// Told the first state whose seams are short; the bound to go on with.
   using Calibrate = std::function<DistortionBound(const SeamState&)>;
 
-  /// From nothing on. @return the cheapest state that keeps the bound, or the one of least distortion.
+  /// From nothing on, on coarse meshes first where there are any. @return the cheapest state that keeps the bound, or
+  /// the one of least distortion.
   SeamState search(const Calibrate& calibrate = {});
 
   /// Short seams for another bound, from what is known.
@@ -54,6 +55,16 @@ class BoundKeeper {
     std::size_t triangles() const;
   };
 
+  /// How many of the states that a search begins with it goes on with.
+  struct Extent {
+    std::size_t starts;       ///< Of those with and without seams along features: of each, at most.
+    std::size_t near_starts;  ///< Of those of fewer seams, beyond the bound.
+    int generous;             ///< Costs below the last one that keeps the bound that are tried, too.
+    bool moves_tips;
+  };
+  static constexpr Extent k_thorough{3, 2, 1, true}, k_brief{1, 0, 0, false};
+
+  SeamState search_mesh(const Calibrate& calibrate);
   bool consider(SeamState state);
   bool try_cost(double seam_cost);
   bool is_same_without_features();
@@ -76,6 +87,7 @@ class BoundKeeper {
   SeamMesh mesh_;
   DistortionBound bound_;
   const SeamTools& tools_;
+  const Extent& extent_;
   const Deadline& deadline_;
   SeamTrace& trace_;
   bool feature_seams_ = true;

@@ -14,13 +14,14 @@ namespace {
 using namespace param_detail;
 
 /// Maps that a search usually makes of the mesh that it begins with, and of each finer one.
-constexpr double k_usual_maps = 100, k_usual_maps_of_finer = 6;
+constexpr double k_usual_maps = 100, k_usual_maps_when_brief = 60, k_usual_maps_of_finer = 6;
 
 /// Of all of them.
 double usual_triangles(const TriangleMesh& mesh, const SeamTools& tools) {
   const auto triangles = static_cast<double>(mesh.triangles.size());
-  if (!tools.coarse) return k_usual_maps * triangles;
-  return k_usual_maps_of_finer * triangles + usual_triangles(tools.coarse->mesh, tools.coarse->tools);
+  const CoarseSurface* coarse = tools.coarse ? tools.coarse(0) : nullptr;
+  if (!coarse) return (tools.brief ? k_usual_maps_when_brief : k_usual_maps) * triangles;
+  return k_usual_maps_of_finer * triangles + usual_triangles(coarse->mesh, coarse->tools);
 }
 
 void check(const DistortionBound& bound) {

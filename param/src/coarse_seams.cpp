@@ -30,10 +30,6 @@ constexpr double k_shorter = 0.15, k_longer = 6;
 /// cost so much less are brought there, too, from further away: the coarse bound may have been moved too far.
 constexpr double k_most_part = 1.5, k_most_part_then = 2.5, k_hope = 1.2;
 
-/// What comes of it is given up where it costs so many times what was lifted: the coarse mesh had no place for such
-/// seams.
-constexpr double k_too_dear = 1.5;
-
 /// Of the time that there is.
 constexpr double k_share_of_time = 0.5;
 
@@ -43,12 +39,13 @@ class CoarseSearch {
                SeamTrace& trace)
       : fine_(fine),
         bound_(bound),
-        vertices_(coarse.vertices),
         deadline_(deadline),
         coarse_deadline_(deadline.never() ? deadline : Deadline(k_share_of_time * deadline.left())),
-        coarse_(coarse.mesh, scaled(k_first_ratio), coarse.tools, coarse_deadline_, trace) {}
+        coarse_(coarse.mesh, scaled(k_first_ratio), coarse.tools, coarse_deadline_, trace),
+        vertices_(coarse.vertices),
+        lifter_(fine.mesh(), coarse_.mesh(), coarse.vertices) {}
 
-  std::optional<SeamState> run() {
+  CoarseSeams run() {
     SeamState found = coarse_.search(
         [&](const SeamState& state) { return scaled(lift(state) ? ratio_to_lifted(state) : k_first_ratio); });
     bool is_new = lift(found);
@@ -75,7 +72,7 @@ class CoarseSearch {
 
   /// @return whether it has a map on the fine mesh.
   bool lift(const SeamState& state) {
-    const CornerAttribute<Vec2> nearby = lift_map(fine_.mesh(), coarse_.mesh(), vertices_, state.charted.flattening.uv);
+    const CornerAttribute<Vec2> nearby = lifter_.lift(state.charted.flattening.uv);
     SeamState fine = fine_.map_seams(lift_seams(fine_.mesh(), coarse_.mesh(), vertices_, state.seam), true, &nearby);
     if (!fine.valid) return false;
     lifted_.push_back(std::move(fine));
@@ -88,7 +85,7 @@ class CoarseSearch {
   }
 
   /// What was lifted and is worth most, on the fine mesh; others too, where they may come out cheaper.
-  std::optional<SeamState> finished() {
+  CoarseSeams finished() {
     std::stable_sort(lifted_.begin(), lifted_.end(),
                      [&](const auto& a, const auto& b) { return cost_when_finished(a) < cost_when_finished(b); });
     double least = std::numeric_limits<double>::infinity();
@@ -100,25 +97,28 @@ class CoarseSearch {
       if (part_of(state) > (best ? k_most_part_then : k_most_part)) continue;
       if (auto done = fine_.finished(state); done && !(best && best->cost_mm <= done->cost_mm)) best = std::move(done);
     }
-    if (best && (deadline_.passed() || best->cost_mm <= k_too_dear * least)) return best;
-    if (!deadline_.passed() || lifted_.empty()) return {};
-    return *std::min_element(lifted_.begin(), lifted_.end(),
-                             [](const auto& a, const auto& b) { return a.distortion < b.distortion; });
+    if (!best && deadline_.passed() && !lifted_.empty())
+      best = *std::min_element(lifted_.begin(), lifted_.end(),
+                               [](const auto& a, const auto& b) { return a.distortion < b.distortion; });
+    double price = std::numeric_limits<double>::infinity();
+    if (best) price = best->cost_mm > least ? best->cost_mm / least : 1;  // no seams at all are not dear
+    return {std::move(best), price};
   }
 
   BoundKeeper& fine_;
   const DistortionBound& bound_;
-  std::span<const Index> vertices_;
   const Deadline& deadline_;
   Deadline coarse_deadline_;
   BoundKeeper coarse_;
+  std::span<const Index> vertices_;
+  MapLifter lifter_;
   std::vector<SeamState> lifted_;
 };
 
 }  // namespace
 
-std::optional<SeamState> seams_from_coarse(BoundKeeper& fine, const DistortionBound& bound, const CoarseSurface& coarse,
-                                           const Deadline& deadline, SeamTrace& trace) {
+CoarseSeams seams_from_coarse(BoundKeeper& fine, const DistortionBound& bound, const CoarseSurface& coarse,
+                              const Deadline& deadline, SeamTrace& trace) {
   return CoarseSearch(fine, bound, coarse, deadline, trace).run();
 }
 

@@ -2,17 +2,27 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "seam_state.hpp"
 
 namespace papilla::param_detail {
 
-/// Where the triangles of a fine mesh come to lie by the map of a coarse one whose vertices are some of its own: each
-/// by the affine map of a coarse triangle around the nearest coarse vertices, that which its middle lies in, or nearly
-/// so. Triangles do not hang together; what lies across a seam of the coarse map may have come to its other side.
-/// O(n log n).
-/// @param vertices of the fine mesh, one per vertex of the coarse one. @param uv of all triangles of the coarse mesh.
-CornerAttribute<Vec2> lift_map(const SeamMesh& fine, const SeamMesh& coarse, std::span<const Index> vertices,
-                               const CornerAttribute<Vec2>& uv);
+/// Brings maps of a coarse mesh to the fine one whose vertices it has some of.
+class MapLifter {
+ public:
+  /// Finds for each fine triangle the coarse one, of those around the nearest coarse vertices, in which its middle
+  /// lies, or nearly so. O(n log n). @param vertices of the fine mesh, one per vertex of the coarse one.
+  MapLifter(const SeamMesh& fine, const SeamMesh& coarse, std::span<const Index> vertices);
+
+  /// Where the fine triangles come to lie by a map: each by the affine map of its coarse one. Triangles do not hang
+  /// together; what lies across a seam of the coarse map may have come to its other side. O(n).
+  /// @param uv of all triangles of the coarse mesh.
+  CornerAttribute<Vec2> lift(const CornerAttribute<Vec2>& uv) const;
+
+ private:
+  const TriangleMesh &fine_, &coarse_;
+  std::vector<Index> under_;  ///< Per fine triangle: the coarse one.
+};
 
 }  // namespace papilla::param_detail

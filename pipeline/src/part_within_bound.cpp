@@ -22,20 +22,20 @@ constexpr double k_tolerance = 0.01, k_least_tolerance = 1e-5;
 constexpr double k_worth_coarsening = 2.0 / 3;
 constexpr std::size_t k_level_growth = 12;
 
-/// Triangles of the coarsest mesh; 0: seams are sought on the whole mesh.
-std::size_t coarsest_triangles(UnwrapEffort effort) {
+/// Triangles of the coarsest mesh of each attempt; none: seams are sought on the whole mesh.
+std::vector<std::size_t> coarsest_triangles(UnwrapEffort effort) {
   switch (effort) {
-    case UnwrapEffort::fast: return 800;
-    case UnwrapEffort::normal: return 2200;
+    case UnwrapEffort::fast: return {800, 2200};
+    case UnwrapEffort::normal: return {2200};
     case UnwrapEffort::best: break;
   }
-  return 0;
+  return {};
 }
 
 /// Of a mesh, the coarsest last.
 std::vector<std::size_t> level_triangles(std::size_t triangles, std::size_t coarsest) {
   std::vector<std::size_t> levels;
-  if (coarsest == 0 || static_cast<double>(coarsest) > k_worth_coarsening * static_cast<double>(triangles)) return {};
+  if (static_cast<double>(coarsest) > k_worth_coarsening * static_cast<double>(triangles)) return {};
   for (std::size_t count = coarsest; count == coarsest || k_level_growth * count <= 2 * triangles;
        count *= k_level_growth)
     levels.push_back(count);
@@ -85,6 +85,7 @@ class BoundTools {
     };
     if (!memory.segmenter) memory.segmenter.emplace(mesh);
     tools.seam_costs = memory.segmenter->seam_costs(options_.segmentation);
+    tools.brief = options_.effort == UnwrapEffort::fast;
     return tools;
   }
 
@@ -96,6 +97,45 @@ class BoundTools {
   FlattenedPart& part_;
 };
 
+/// Coarse meshes of a part, made when they are asked for.
+class CoarseSurfaces {
+ public:
+  CoarseSurfaces(const TriangleMesh& mesh, UnwrapEffort effort, BoundTools& tools_of)
+      : mesh_(mesh), coarsest_(coarsest_triangles(effort)), tools_of_(tools_of) {}
+
+  /// @return null: there is none.
+  const CoarseSurface* of_attempt(std::size_t attempt) {
+    while (made_.size() <= attempt && made_.size() < coarsest_.size()) made_.push_back(make(coarsest_[made_.size()]));
+    return attempt < made_.size() ? made_[attempt] : nullptr;
+  }
+
+ private:
+  /// One that seams are sought on with the help of coarser ones, where there is room for these.
+  const CoarseSurface* make(std::size_t coarsest) {
+    const CoarseSurface* finest = nullptr;
+    SeamTools* finer_tools = nullptr;
+    const TriangleMesh* finer = &mesh_;
+    for (const std::size_t triangles : level_triangles(mesh_.triangles.size(), coarsest)) {
+      Level& level = levels_.emplace_back();
+      level.coarse = coarsen(*finer, triangles);
+      finer = &level.coarse.mesh;
+      level.surface.emplace(CoarseSurface{*finer, level.coarse.vertices, tools_of_.of(*finer, level.memory)});
+      const CoarseSurface* surface = &*level.surface;
+      if (finer_tools)
+        finer_tools->coarse = [surface](std::size_t attempt) { return attempt == 0 ? surface : nullptr; };
+      if (!finest) finest = surface;
+      finer_tools = &level.surface->tools;
+    }
+    return finest;
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<std::size_t> coarsest_;
+  BoundTools& tools_of_;
+  std::deque<Level> levels_;
+  std::vector<const CoarseSurface*> made_;
+};
+
 }  // namespace
 
 Flattening chart_within_bound(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
@@ -103,17 +143,8 @@ Flattening chart_within_bound(const TriangleMesh& mesh, const MethodOptions& o, 
   BoundTools tools_of(o, context, part);
   PartMemory memory;
   SeamTools tools = tools_of.of(mesh, memory);
-  std::deque<Level> levels;
-  SeamTools* finer_tools = &tools;
-  const TriangleMesh* finer = &mesh;
-  for (const std::size_t triangles : level_triangles(mesh.triangles.size(), coarsest_triangles(o.effort))) {
-    Level& level = levels.emplace_back();
-    level.coarse = coarsen(*finer, triangles);
-    finer = &level.coarse.mesh;
-    level.surface.emplace(CoarseSurface{*finer, level.coarse.vertices, tools_of.of(*finer, level.memory)});
-    finer_tools->coarse = &*level.surface;
-    finer_tools = &level.surface->tools;
-  }
+  CoarseSurfaces surfaces(mesh, o.effort, tools_of);
+  tools.coarse = [&](std::size_t attempt) { return surfaces.of_attempt(attempt); };
   BoundedSeams result = keep_bound(mesh, *o.max_distortion, tools, o.deadline, o.progress);
   part.bound = BoundReport{*o.max_distortion, result.kept,         result.distortion,
                            result.seam_mm,    result.seam_cost_mm, std::move(result.trace)};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -104,6 +105,93 @@ TEST(BoundedSeams, WhatBrokeTheBoundIsNotMappedAgain) {
   EXPECT_TRUE(result.kept);
   EXPECT_EQ(result.charted.flattening.charts.count, 2u);
   EXPECT_EQ(result.distortion, 4);
+}
+
+/// Of every vertex, where the coarse mesh is the fine one.
+std::vector<Index> same_vertices(const TriangleMesh& mesh) {
+  std::vector<Index> vertices(mesh.positions.size());
+  for (Index v = 0; v < vertices.size(); ++v) vertices[v] = v;
+  return vertices;
+}
+
+TEST(BoundedSeams, WhereNothingComesOfACoarseMeshTheNextIsSearched) {
+  const TriangleMesh mesh = test::plane(40, 10, 8, 4), first = test::plane(40, 10, 4, 2);
+  int maps = 0, maps_of_first = 0, maps_of_next = 0;
+  SeamTools tools = plate_tools(mesh, maps);
+  CoarseSurface of_first{first, {}, plate_tools(first, maps_of_first)};
+  // Its vertices lie where others of the fine mesh do.
+  std::vector<Index> places;
+  for (const Vec3& p : first.positions)
+    for (Index v = 0; v < mesh.positions.size(); ++v)
+      if (norm(mesh.positions[v] - p) < 1e-9) places.push_back(v);
+  ASSERT_EQ(places.size(), first.positions.size());
+  of_first.vertices = places;
+  const std::vector<Index> all = same_vertices(mesh);
+  CoarseSurface next{mesh, all, plate_tools(mesh, maps_of_next)};
+  std::vector<std::size_t> asked;
+  tools.coarse = [&](std::size_t attempt) -> const CoarseSurface* {
+    asked.push_back(attempt);
+    return attempt == 0 ? &of_first : attempt == 1 ? &next : nullptr;
+  };
+  BoundedSeams result = keep_bound(mesh, {4.1, {}}, tools);
+  EXPECT_TRUE(result.kept);
+  EXPECT_EQ(result.seam_mm, 0);
+  EXPECT_EQ(std::count(asked.begin(), asked.end(), 1u), 0) << "the first one was good";
+  EXPECT_EQ(maps_of_next, 0);
+
+  // No chart may be the whole plate, and none may end in its middle, where the first coarse mesh has its cut.
+  asked.clear();
+  const auto stretched = [](SeamTools& of, const TriangleMesh& on, bool in_the_middle, bool is_fine) {
+    const auto map = of.map;
+    of.map = [=, &on](const ChartSet& charts, double most_excess_mm2, const CornerAttribute<Vec2>* nearby) {
+      ChartedMap charted = map(charts, most_excess_mm2, nearby);
+      double most = 0;
+      for (std::size_t t = 0; t < on.triangles.size(); ++t)
+        if (charts.of_triangle[t] == charts.of_triangle[0])
+          for (const Index v : on.triangles[t]) most = std::max(most, on.positions[v].x);
+      if (charts.count == 1 || (is_fine && most == 20))
+        for (Vec2& p : charted.flattening.uv.values) p.y *= 3;
+      return charted;
+    };
+    const auto chart = of.chart;
+    of.chart = [chart, in_the_middle](double seam_cost, bool) { return chart(seam_cost, in_the_middle); };
+  };
+  stretched(tools, mesh, false, true);
+  stretched(of_first.tools, first, true, false);
+  stretched(next.tools, mesh, false, false);
+  result = keep_bound(mesh, {4.1, {}}, tools);
+  EXPECT_TRUE(result.kept);
+  EXPECT_EQ(result.charted.flattening.charts.count, 2u);
+  EXPECT_EQ(result.distortion, 4);
+  EXPECT_EQ(std::count(asked.begin(), asked.end(), 1u), 1);
+  EXPECT_GT(maps_of_next, 0);
+  EXPECT_EQ(std::count(asked.begin(), asked.end(), 2u), 0) << "the next one was good";
+}
+
+TEST(BoundedSeams, ABriefSearchBeginsWithLess) {
+  const TriangleMesh mesh = test::plane(40, 10, 8, 4);
+  int maps = 0, brief_maps = 0;
+  const auto kept_by = [&](bool brief, int& count) {
+    SeamTools tools = plate_tools(mesh, count);
+    tools.brief = brief;
+    // One more cut for each quarter of the cost: all keep the bound.
+    const auto map = tools.map;
+    tools.chart = [&mesh, map](double seam_cost, bool) {
+      ChartSet charts;
+      charts.count = seam_cost < 0.01 ? 3 : 2;
+      for (const Triangle& t : mesh.triangles) {
+        const double x = (mesh.positions[t[0]].x + mesh.positions[t[1]].x + mesh.positions[t[2]].x) / 3;
+        charts.of_triangle.push_back((x > 20) + (charts.count == 3 && x > 30));
+      }
+      return map(charts, 0, nullptr);
+    };
+    return keep_bound(mesh, {4.1, {}}, tools);
+  };
+  const BoundedSeams thorough = kept_by(false, maps), brief = kept_by(true, brief_maps);
+  EXPECT_TRUE(thorough.kept);
+  EXPECT_TRUE(brief.kept);
+  EXPECT_EQ(brief.seam_mm, 0);
+  EXPECT_LT(brief_maps, maps);
 }
 
 TEST(BoundedSeams, WhatCantBeIsRefused) {

@@ -152,7 +152,7 @@ TEST(LiftMap, TrianglesGoWhereTheCoarseOnesAre) {
       uv.values.push_back(affine(coarse.mesh.positions[t[k]], is_right(coarse.mesh, t)));
     }
   }
-  const CornerAttribute<Vec2> lifted = lift_map(fine.seams, coarse.seams, places(coarse.mesh, fine.mesh), uv);
+  const CornerAttribute<Vec2> lifted = MapLifter(fine.seams, coarse.seams, places(coarse.mesh, fine.mesh)).lift(uv);
   ASSERT_EQ(lifted.indices.size(), fine.mesh.triangles.size());
   for (std::size_t t = 0; t < lifted.indices.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -170,7 +170,7 @@ TEST(LiftMap, TrianglesWithoutAreaLeadNowhere) {
   std::iota(all.begin(), all.end(), Index{0});
   CornerAttribute<Vec2> uv{{}, flat.triangles};
   for (const Vec3& p : flat.positions) uv.values.push_back({p.x, 7});
-  for (const Vec2 p : lift_map(mesh.seams, mesh.seams, all, uv).values) {
+  for (const Vec2 p : MapLifter(mesh.seams, mesh.seams, all).lift(uv).values) {
     EXPECT_TRUE(p.x >= 0 && p.x <= 40) << p.x;
     EXPECT_EQ(p.y, 7);
   }
@@ -188,7 +188,7 @@ TEST(LiftMap, OfTwoSidesThatOfTheTriangleIsTaken) {
   const auto unfolded = [](Vec3 p) { return Vec2{p.z > 0 ? 40 - p.x : p.x, p.y}; };
   CornerAttribute<Vec2> uv{{}, coarse.mesh.triangles};
   for (const Vec3& p : coarse.mesh.positions) uv.values.push_back(unfolded(p));
-  const CornerAttribute<Vec2> lifted = lift_map(fine.seams, coarse.seams, vertices, uv);
+  const CornerAttribute<Vec2> lifted = MapLifter(fine.seams, coarse.seams, vertices).lift(uv);
   for (std::size_t t = 0; t < lifted.indices.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 at = lifted.values[lifted.indices[t][k]];

@@ -45,8 +45,13 @@ struct SeamTools {
   std::function<ChartedMap(const ChartSet&, double most_excess_mm2, const CornerAttribute<Vec2>* nearby)> map;
   /// Charts with the named ones cut in two.
   std::function<ChartSet(const ChartSet&, std::span<const std::uint32_t>)> halve;
-  std::vector<double> seam_costs;         ///< Per half-edge 3 t + k: what a seam there counts [mm]; not negative.
-  const CoarseSurface* coarse = nullptr;  ///< Given: seams are sought on it first, and finished on the whole mesh.
+  std::vector<double> seam_costs;  ///< Per half-edge 3 t + k: what a seam there counts [mm]; not negative.
+  /// Given: surfaces on which seams are sought first, to be finished on the whole mesh. The one for the first attempt,
+  /// and another one for the next where little comes of that; null: there is none. They have to outlive the search.
+  std::function<const CoarseSurface*(std::size_t attempt)> coarse;
+  /// Fewer seams are tried: of charts with and without seams along features the cheapest go on, none beyond the bound,
+  /// and no tips are moved.
+  bool brief = false;
 };
 
 /// A surface with fewer triangles.
@@ -100,8 +105,8 @@ inline constexpr double k_bound_slack = 1e-6;
 /// With `coarse`, all that is done on the coarse mesh, for a bound under which the fine map of the same seams comes out
 /// at the one that is asked for: found from the ratio of their D - 4, once when first seams are short and up to four
 /// times at the end. Seams are lifted to the fine mesh edge by edge, zigzags straightened within a coarse edge, and
-/// their map begins at the coarse one; 2. and 3. finish them there. Where nothing comes of that the whole mesh is
-/// searched.
+/// their map begins at the coarse one; 2. and 3. finish them there. Where nothing comes of that, or seams that are much
+/// longer than what was lifted, the next coarse mesh is searched, and at last the whole one.
 ///
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
