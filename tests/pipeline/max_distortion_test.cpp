@@ -216,6 +216,18 @@ TEST(MaxDistortion, SeamsAreSoughtOnACoarseMeshFirst) {
   }
 }
 
+TEST(MaxDistortion, LittleEffortTriesFewerSeams) {
+  const TriangleMesh mesh = placed(pebble(14, 26));  // too small for a coarse mesh
+  MethodOptions options = bounded("4.1");
+  const FlattenedPart normal = unwrapped(mesh, options);
+  options.effort = UnwrapEffort::fast;
+  const FlattenedPart fast = unwrapped(mesh, options);
+  EXPECT_TRUE(fast.bound->kept);
+  EXPECT_LT(fast.bound->trace.size(), normal.bound->trace.size());
+  EXPECT_NEAR(fast.bound->seam_cost_mm, normal.bound->seam_cost_mm, 0.25 * normal.bound->seam_cost_mm);
+  EXPECT_EQ(fast.bound->trace.back().triangles, mesh.triangles.size());
+}
+
 TEST(MaxDistortion, ADevelopablePartNeedsNoMoreSeamsForBeingCoarse) {
   // The triangles of few vertices of a cylinder are not developable, its own are: one cut from end to end is enough.
   // Where it ends on the border is sought on the coarse mesh alone.
