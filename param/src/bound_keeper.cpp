@@ -97,7 +97,9 @@ SeamState BoundKeeper::search_mesh(const Calibrate& calibrate) {
 
 SeamState BoundKeeper::moved(SeamState state, const DistortionBound& bound) {
   move_bound(bound);
-  const auto searched_on = [&](SeamState from) { return exchanged(reconnected(std::move(from))); };
+  const auto searched_on = [&](SeamState from) {
+    return maps_ < extent_.most_maps ? exchanged(reconnected(std::move(from))) : std::move(from);
+  };
   if (keeps(state)) {
     const bool has_room = bound_.most - 4 > k_much * (state.distortion - 4);
     state = shortened(std::move(state));
@@ -121,6 +123,7 @@ std::optional<SeamState> BoundKeeper::finished(SeamState state) {
 
 /// Keeps the state where it is of use. @return whether the bound is kept.
 bool BoundKeeper::consider(SeamState state) {
+  ++maps_;
   trace_.add(mesh_, state);
   remember({state.seam.begin(), state.seam.end()}, {state, true});
   const bool good = keeps(state);
@@ -271,6 +274,7 @@ SeamState BoundKeeper::map_seams(const std::vector<std::uint8_t>& seam, bool who
   const double most = whole || bound_.percentile ? k_infinity : (bound_.most + k_bound_slack - 4) * mesh_.area;
   Known known{map(charts_between(mesh_, seam), most, nearby), most == k_infinity};
   trace_.add(mesh_, known.state);
+  ++maps_;
   SeamState state = known.state;
   if (!known.is_whole) {
     if (state.valid && keeps(state))

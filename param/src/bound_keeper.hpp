@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -61,8 +62,10 @@ class BoundKeeper {
     std::size_t near_starts;  ///< Of those of fewer seams, beyond the bound.
     int generous;             ///< Costs below the last one that keeps the bound that are tried, too.
     bool moves_tips;
+    std::size_t most_maps;  ///< After so many, seams for another bound are not searched on.
   };
-  static constexpr Extent k_thorough{3, 2, 1, true}, k_brief{1, 0, 0, false};
+  static constexpr Extent k_thorough{3, 2, 1, true, std::numeric_limits<std::size_t>::max()};
+  static constexpr Extent k_brief{1, 0, 0, false, 100};
 
   SeamState search_mesh(const Calibrate& calibrate);
   bool consider(SeamState state);
@@ -97,6 +100,7 @@ class BoundKeeper {
   std::map<bool, Tries> tried_;                         ///< Without seams along features, and with.
   std::unordered_map<std::vector<bool>, Known> known_;  ///< By their seams.
   std::size_t remembered_ = 0;                          ///< Triangles of known_.
+  std::size_t maps_ = 0;                                ///< That were made.
   const MapSeams map_ = [this](const auto& seam, const SeamState& nearby) {
     return map_seams(seam, false, &nearby.charted.flattening.uv);
   };
