@@ -137,6 +137,15 @@ class StudioCarrierScenes : public testing::Test {
     return scene;
   }
 
+  /// The same, standing: the copy is turned about what looks to the side.
+  static Scene standing_plates() {
+    Scene scene = plates();
+    for (Part& part : scene.parts)
+      for (Vec3& p : part.mesh.positions) p = {p.x, -p.z, p.y};
+    assign_part_ids(scene);
+    return scene;
+  }
+
   /// Two closed boxes of different widths far above each other, and one beside them.
   static Scene boxes() {
     Scene scene;
@@ -271,6 +280,31 @@ TEST_F(StudioCarrierScenes, OfPartsAreThoseOfTheBake) {
 TEST_F(StudioCarrierScenes, OfCopiesLieAsInTheBake) {
   expect_as_baked(document(R"({"part": "*", "picture": {"render": true, "pixels": 32}})"), 3);
   expect_as_baked(document(R"({"part": "copy", "picture": {"render": true, "pixels": 32}})"), 1);
+}
+
+TEST_F(StudioCarrierScenes, OfCopiesThatAreTurnedAreTurnedWithThem) {
+  const Json json = document(R"({"part": "*", "picture": "logo.png"})");
+  expect_as_baked(json, 3, standing_plates());
+  // What is upright on the first one lies on its side on the copy: its lower edge goes up.
+  StudioScene studio(standing_plates(), options(), false);
+  const StudioCarriers carriers = made(studio, plan_of(studio, json));
+  ASSERT_EQ(carriers.rectangles.size(), 3U);
+  for (const StudioCarriers::Rectangle& rectangle : carriers.rectangles) {
+    const ShownMesh& mesh = rectangle.surface->mesh;
+    std::array<double, 2> along_u{}, along_v{};  // Of x and z, what they grow by.
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t a = mesh.indices[i + k], b = mesh.indices[i + (k + 1) % 3];
+        const Vec3 edge = transform_point(rectangle.world, vec3_at(mesh.positions, b)) -
+                          transform_point(rectangle.world, vec3_at(mesh.positions, a));
+        const double du = mesh.uv[2 * b] - mesh.uv[2 * a], dv = mesh.uv[2 * b + 1] - mesh.uv[2 * a + 1];
+        along_u[0] += du * edge.x, along_u[1] += du * edge.z;
+        along_v[0] += dv * edge.x, along_v[1] += dv * edge.z;
+      }
+    const bool is_copy = rectangle.use == 2U;
+    EXPECT_GT(std::abs(along_v[is_copy ? 0 : 1]), 2 * std::abs(along_v[is_copy ? 1 : 0])) << rectangle.use.value_or(9);
+    EXPECT_GT(std::abs(along_u[is_copy ? 1 : 0]), 2 * std::abs(along_u[is_copy ? 0 : 1])) << rectangle.use.value_or(9);
+  }
 }
 
 TEST_F(StudioCarrierScenes, OfClosedBodiesLookAtTheMiddleOfTheWholeScene) {
