@@ -54,7 +54,10 @@ inline std::string unknown_word(const CLI::App& program) {
   if (word.starts_with("-")) {
     for (const CLI::Option* option : verb->get_options())
       for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    return place + "unknown option '" + word + "'" + did_you_mean(word, {known.begin(), known.end()});
+    std::string hint = did_you_mean(word, {known.begin(), known.end()});
+    if (hint.empty() && verb->get_option_no_throw("options"))
+      hint = "; options of the verb that runs for each input go behind --";
+    return place + "unknown option '" + word + "'" + hint;
   }
   for (const CLI::App* other : verb->get_subcommands({})) known.push_back(other->get_name());
   if (known.empty()) return place + "unexpected word '" + word + "'";

@@ -31,6 +31,7 @@ code 0 '' "$papilla" batch repair in/one.stl in/more/one.stl -q -- -o '{folder}/
 code 2 "out/\{sten\}.glb': \{sten\} is none of .*; did you mean '\{stem\}'" "$papilla" batch repair in/*.stl -- -o 'out/{sten}.glb'
 code 2 'batch repair: no input is named' "$papilla" batch repair -- -o 'out/{stem}.glb'
 code 2 "in/one.stl: repair: unknown option '--wild'; did you mean '--weld'" "$papilla" batch repair in/*.stl -- -o 'x{stem}.glb' --wild 1
+code 2 "batch: unknown option '-o'; options of the verb that runs for each input go behind --" "$papilla" batch repair in/one.stl -o one.glb
 code 2 "in/one.stl: --output is required" "$papilla" batch repair in/*.stl
 code 2 "'in/one.stl' is no verb, and a manifest goes alone" "$papilla" batch in/one.stl in/more/one.stl
 
