@@ -55,7 +55,7 @@ inline std::string unknown_word(const CLI::App& program) {
     for (const CLI::Option* option : verb->get_options())
       for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     std::string hint = did_you_mean(word, {known.begin(), known.end()});
-    if (hint.empty() && verb->get_option_no_throw("options"))
+    if (hint.empty() && verb->get_option_no_throw("options"))  // It hands on what stands there.
       hint = "; options of the verb that runs for each input go behind --";
     return place + "unknown option '" + word + "'" + hint;
   }

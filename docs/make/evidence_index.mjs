@@ -7,6 +7,9 @@ import { anchorOf, firstParagraph, headings, tableAfter } from './markdown.mjs';
 const [docs, mode] = process.argv.slice(2);
 const INDEX = join(docs, 'evidence', 'README.md');
 
+/** What the last column of targets may say: anything else would be counted nowhere. */
+const VERDICTS = ['yes', 'no', 'not measured'];
+
 /** What a promise must speak of to count for stability; all others are of error and run time. */
 const STABILITY = /bad input|refus|finite|\bnan\b|crash|hang|stable|stability|stiff|extreme|needle|sliver|valid|flip|overlap|lost|never|\bnoise\b|manifold|degenerate|whatever/i;
 
@@ -24,6 +27,8 @@ function evidencePage(name) {
   const written = /^Written by (`[^`]+`)(?: on (\d{4}-\d\d-\d\d)[^,]*)?(?:, commit ([0-9a-f]+(?:-dirty)?))?/m.exec(text) ?? [];
   const rows = tableAfter(text, 'Targets') ?? [];
   const promises = rows.map(([promise, measured, holds]) => ({ page: name, promise, measured, holds: holds.replaceAll('*', '') }));
+  for (const { promise, holds } of promises)
+    if (!VERDICTS.includes(holds)) throw new Error(`${name}: '${promise}' holds '${holds}'; it has to be one of ${VERDICTS.join(', ')}`);
   return { name, text, title: title.text.replace(/: what was measured$/, ''), day: written[2], commit: written[3], promises, ratios: tableAfter(text, 'Ratios') ?? [] };
 }
 

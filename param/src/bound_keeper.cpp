@@ -121,10 +121,15 @@ std::optional<SeamState> BoundKeeper::finished(SeamState state) {
   return shorten_seams(mesh_, std::move(*kept), bound_, map_, doubt, deadline_);
 }
 
-/// Keeps the state where it is of use. @return whether the bound is kept.
-bool BoundKeeper::consider(SeamState state) {
+/// A map that was made.
+void BoundKeeper::count(const SeamState& state) {
   ++maps_;
   trace_.add(mesh_, state);
+}
+
+/// Keeps the state where it is of use. @return whether the bound is kept.
+bool BoundKeeper::consider(SeamState state) {
+  count(state);
   remember({state.seam.begin(), state.seam.end()}, {state, true});
   const bool good = keeps(state);
   if (!least_ || state.distortion < least_->distortion) least_ = state;
@@ -273,8 +278,7 @@ SeamState BoundKeeper::map_seams(const std::vector<std::uint8_t>& seam, bool who
     return before->second.state;
   const double most = whole || bound_.percentile ? k_infinity : (bound_.most + k_bound_slack - 4) * mesh_.area;
   Known known{map(charts_between(mesh_, seam), most, nearby), most == k_infinity};
-  trace_.add(mesh_, known.state);
-  ++maps_;
+  count(known.state);
   SeamState state = known.state;
   if (!known.is_whole) {
     if (state.valid && keeps(state))

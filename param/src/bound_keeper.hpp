@@ -56,18 +56,19 @@ class BoundKeeper {
     std::size_t triangles() const;
   };
 
-  /// How many of the states that a search begins with it goes on with.
+  /// How far a search goes.
   struct Extent {
     std::size_t starts;       ///< Of those with and without seams along features: of each, at most.
     std::size_t near_starts;  ///< Of those of fewer seams, beyond the bound.
     int generous;             ///< Costs below the last one that keeps the bound that are tried, too.
-    bool moves_tips;
-    std::size_t most_maps;  ///< After so many, seams for another bound are not searched on.
+    bool moves_tips;          ///< Slits may end at other vertices.
+    std::size_t most_maps;    ///< After so many, seams for another bound are not searched on.
   };
   static constexpr Extent k_thorough{3, 2, 1, true, std::numeric_limits<std::size_t>::max()};
   static constexpr Extent k_brief{1, 0, 0, false, 100};
 
   SeamState search_mesh(const Calibrate& calibrate);
+  void count(const SeamState& state);
   bool consider(SeamState state);
   bool try_cost(double seam_cost);
   bool is_same_without_features();

@@ -37,7 +37,8 @@ void check(const DistortionBound& bound) {
 BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
                         Deadline deadline, const ProgressCallback& progress) {
   check(bound);
-  SeamTrace trace(usual_triangles(mesh, tools), progress);
+  const Stopwatch clock;
+  SeamTrace trace(clock, usual_triangles(mesh, tools), progress);
   BoundKeeper keeper(mesh, bound, tools, deadline, trace);
   SeamState best = keeper.search();
   BoundedSeams result;

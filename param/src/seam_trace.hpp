@@ -14,9 +14,9 @@ namespace papilla::param_detail {
 /// The maps that a search for seams has made so far, of one mesh or of several.
 class SeamTrace {
  public:
-  /// @param usual_triangles of all maps that a search usually makes.
-  SeamTrace(double usual_triangles, const ProgressCallback& progress)
-      : usual_triangles_(usual_triangles), progress_(progress) {}
+  /// @param since when its seconds count. @param usual_triangles of all maps that a search usually makes.
+  SeamTrace(const Stopwatch& since, double usual_triangles, const ProgressCallback& progress)
+      : usual_triangles_(usual_triangles), progress_(progress), clock_(since) {}
 
   /// @throws Cancelled as report_progress().
   void add(const SeamMesh& mesh, const SeamState& state) {

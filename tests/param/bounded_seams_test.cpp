@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "papilla/core/error.hpp"
@@ -107,13 +108,6 @@ TEST(BoundedSeams, WhatBrokeTheBoundIsNotMappedAgain) {
   EXPECT_EQ(result.distortion, 4);
 }
 
-/// Of every vertex, where the coarse mesh is the fine one.
-std::vector<Index> same_vertices(const TriangleMesh& mesh) {
-  std::vector<Index> vertices(mesh.positions.size());
-  for (Index v = 0; v < vertices.size(); ++v) vertices[v] = v;
-  return vertices;
-}
-
 TEST(BoundedSeams, WhereNothingComesOfACoarseMeshTheNextIsSearched) {
   const TriangleMesh mesh = test::plane(40, 10, 8, 4), first = test::plane(40, 10, 4, 2);
   int maps = 0, maps_of_first = 0, maps_of_next = 0;
@@ -126,7 +120,8 @@ TEST(BoundedSeams, WhereNothingComesOfACoarseMeshTheNextIsSearched) {
       if (norm(mesh.positions[v] - p) < 1e-9) places.push_back(v);
   ASSERT_EQ(places.size(), first.positions.size());
   of_first.vertices = places;
-  const std::vector<Index> all = same_vertices(mesh);
+  std::vector<Index> all(mesh.positions.size());  // The next coarse mesh is the fine one.
+  std::iota(all.begin(), all.end(), Index{0});
   CoarseSurface next{mesh, all, plate_tools(mesh, maps_of_next)};
   std::vector<std::size_t> asked;
   tools.coarse = [&](std::size_t attempt) -> const CoarseSurface* {
@@ -174,7 +169,7 @@ TEST(BoundedSeams, ABriefSearchBeginsWithLess) {
   const auto kept_by = [&](bool brief, int& count) {
     SeamTools tools = plate_tools(mesh, count);
     tools.brief = brief;
-    // One more cut for each quarter of the cost: all keep the bound.
+    // One more cut where seams cost little: all keep the bound.
     const auto map = tools.map;
     tools.chart = [&mesh, map](double seam_cost, bool) {
       ChartSet charts;

@@ -67,10 +67,10 @@ struct BestOptions {
 /// smoothed by sweeps over the vertices, and the border is kept apart from the first step on. Such a chart may end in
 /// another local optimum, better more often than not. Cost: O(n) for coarsening and relaxing, O(n^1.5) per Newton step;
 /// about 2 kB per vertex. Charts, branches of the factorization and sums run in parallel; the result does not depend on
-/// the number of threads. Trace: error = E / ΣA, from the first
-/// map of the whole chart on. Papers: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M.
-/// Rabinovich et al., Scalable locally injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith
-/// et al., Analytic eigensystems for isotropic distortion energies, 2019.
+/// the number of threads. Trace: error = E / ΣA, from the first map of the whole chart on. Papers: J. Smith, S.
+/// Schaefer, Bijective parameterization with free boundaries, 2015; M. Rabinovich et al., Scalable locally injective
+/// mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith et al., Analytic eigensystems for isotropic
+/// distortion energies, 2019.
 ///
 /// @param charts one number below charts.count for every triangle.
 /// @throws InvalidInput for a mesh, chart set or option that breaks these preconditions; without fall_back also for a

@@ -50,7 +50,7 @@ struct SeamTools {
   /// and another one for the next where little comes of that; null: there is none. They have to outlive the search.
   std::function<const CoarseSurface*(std::size_t attempt)> coarse;
   /// Fewer seams are tried: of charts with and without seams along features the cheapest go on, none beyond the bound,
-  /// and no tips are moved.
+  /// no tips are moved, and after a hundred maps seams for another coarse bound are not searched on.
   bool brief = false;
 };
 
@@ -111,7 +111,7 @@ inline constexpr double k_bound_slack = 1e-6;
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
 /// seams there are: a local search; a coarse mesh that has no place for the details of the fine one costs some per
-/// cent. Cost: 20 to 300 maps, most often 100; with `coarse` so many of the coarse mesh, and 5 to 20 of the whole.
+/// cent. Cost: 20 to 300 maps, most often 100; with `coarse` so many of the coarse mesh, and 6 of the whole.
 /// Deterministic when the tools are.
 /// @throws InvalidInput for a bound out of range or costs that do not fit the mesh; what the tools throw.
 BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
