@@ -12,6 +12,7 @@
 #include "move_tips.hpp"
 #include "papilla/core/progress.hpp"
 #include "reconnect_seams.hpp"
+#include "shift_seams.hpp"
 #include "straighten_seams.hpp"
 
 namespace papilla::param_detail {
@@ -368,6 +369,7 @@ SeamState BoundKeeper::exchanged(SeamState state) {
     before = state.cost_mm;
     state = reconnected(std::move(state));
     if (extent_.moves_tips) state = move_tips(mesh_, std::move(state), bound_, map_, map_fully_, deadline_);
+    state = shift_seams(mesh_, std::move(state), bound_, map_, map_fully_, deadline_);
   }
   return straighten_seams(mesh_, std::move(state), bound_, map_, deadline_);
 }

@@ -2,131 +2,140 @@
 #include "lengthen_seams.hpp"
 
 #include <algorithm>
-#include <numbers>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
 #include <utility>
 
-#include "outgoing_edges.hpp"
-#include "seam_paths.hpp"
+#include "slit_fronts.hpp"
 
 namespace papilla::param_detail {
 namespace {
 
-constexpr int k_rounds = 5;
+constexpr int k_rounds = 6;
 
-/// Edges behind a tip over which its opening is looked at.
-constexpr std::size_t k_behind = 3;
+/// More than the energy that is missing is to be released, as what is foreseen is rough; and in one round seams become
+/// dearer by this many times what seams usually do for as much: with the fourth root of D - 4.
+constexpr double k_more = 1.1, k_most_growth = 2, k_usual_growth = 0.25;
 
-/// More than the energy that is missing is released at once, as what is foreseen is rough; and a slit grows by this
-/// part of its length at most.
-constexpr double k_more = 1.1, k_most_growth = 0.5;
+/// How far what came of a round moves what is foreseen of a place, and of places that were not tried.
+constexpr double k_least_surprise = 0.1, k_most_surprise = 2, k_least_surprise_of_others = 0.125;
 
-/// Energy that was foreseen, over that which was released: as far as that is believed.
-constexpr double k_most_over = 8;
+/// A slit that runs on, or a new one.
+struct Extension {
+  bool is_new = false;
+  std::vector<Index> way;
+  double foreseen = 0;  ///< Energy that it is thought to release.
+};
 
-struct Tip {
-  Index vertex = 0;
-  Vec2 direction;      ///< In the map, of length 1.
-  double release = 0;  ///< Energy per length.
-  double most_mm = 0;  ///< That it may grow.
+/// What places release over what is foreseen, as far as it was learnt.
+class Trust {
+ public:
+  double of(Index vertex, bool is_new) const {
+    const auto known = of_vertex_.find(vertex);
+    return known == of_vertex_.end() ? of_others_[is_new] : known->second;
+  }
+
+  /// @param released by each extension.
+  void learn(const SeamMesh& mesh, const std::vector<Extension>& tried, const std::vector<double>& released) {
+    std::array<double, 2> foreseen{}, came{};
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      const Extension& e = tried[i];
+      const Index start = mesh.from(e.way.front()), end = mesh.to(e.way.back());
+      const double surprise = std::clamp(released[i] / e.foreseen, k_least_surprise, k_most_surprise);
+      const double trust = of(start, e.is_new) * surprise;
+      of_vertex_[start] = trust;
+      if (!e.is_new) of_vertex_[end] = trust;
+      foreseen[e.is_new] += e.foreseen, came[e.is_new] += released[i];
+    }
+    for (const bool is_new : {false, true})
+      if (foreseen[is_new] > 0)
+        of_others_[is_new] *= std::clamp(came[is_new] / foreseen[is_new], k_least_surprise_of_others, 1.0);
+  }
+
+ private:
+  std::unordered_map<Index, double> of_vertex_;  ///< By where a way begins.
+  std::array<double, 2> of_others_{1, 1};        ///< Of tips, of new slits.
 };
 
 class Lengthener {
  public:
   explicit Lengthener(const SeamMesh& mesh) : mesh_(mesh), edges_(mesh) {}
 
-  /// Adds to `seam` what is to release an energy. @return whether anything was added.
-  bool extend(const SeamState& state, double energy, std::vector<std::uint8_t>& seam) const {
-    const std::vector<SeamPath> paths = seam_paths(mesh_, state.seam);
-    std::vector<char> blocked = mesh_.on_border;
-    for (const SeamPath& path : paths)
-      for (const Index h : path.halfedges) blocked[mesh_.from(h)] = blocked[mesh_.to(h)] = 1;
-    bool is_longer = false;
-    for (const Tip& tip : tips(paths, state)) {
-      if (!(energy > 0)) break;
-      const double wanted = std::min(energy / tip.release, tip.most_mm);
-      Index v = tip.vertex;
-      double length = 0;
-      while (length < wanted) {
-        const Index h = next_edge(v, tip.direction, state, blocked);
-        if (h == k_none) break;
-        seam[h] = seam[mesh_.opposite[h]] = 1;
-        v = mesh_.to(h);
-        blocked[v] = 1;
-        length += mesh_.length(h);
-        is_longer = true;
+  /// What is to release an energy at a cost of at most so much, but for the last edge.
+  std::vector<Extension> extensions(const SeamState& state, const Trust& trust, double energy, double most_cost) const {
+    std::vector<SlitFront> fronts = slit_fronts(mesh_, edges_, state);
+    for (SlitFront& front : fronts)
+      for (double& released : front.released) released *= trust.of(front.start(mesh_), front.is_new);
+    std::vector<std::pair<double, const SlitFront*>> order;  // by energy per cost
+    for (const SlitFront& front : fronts) order.emplace_back(front.released.back() / cost_of(front.way), &front);
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<char> is_taken(mesh_.on_border.size(), 0);
+    std::vector<Extension> all;
+    for (const auto& [worth, front] : order) {
+      if (!(energy > 0 && most_cost > 0)) break;
+      Extension e{front->is_new, {}, 0};
+      double cost = 0;
+      for (std::size_t i = 0; i < front->way.size() && e.foreseen < energy && cost < most_cost; ++i) {
+        const Index h = front->way[i];
+        if (is_taken[mesh_.to(h)]) break;
+        is_taken[mesh_.to(h)] = 1;
+        e.way.push_back(h);
+        e.foreseen = front->released[i];
+        cost += mesh_.cost[h];
       }
-      energy -= tip.release * length;
+      energy -= e.foreseen, most_cost -= cost;
+      if (e.foreseen > 0) all.push_back(std::move(e));
     }
-    return is_longer;
+    return all;
+  }
+
+  std::vector<std::uint8_t> with(const std::vector<Extension>& extensions, std::vector<std::uint8_t> seam) const {
+    for (const Extension& e : extensions)
+      for (const Index h : e.way) seam[h] = seam[mesh_.opposite[h]] = 1;
+    return seam;
   }
 
  private:
-  static constexpr Index k_none = ~Index{0};
-
-  /// Those of most release first.
-  std::vector<Tip> tips(const std::vector<SeamPath>& paths, const SeamState& state) const {
-    std::vector<Tip> tips;
-    for (const SeamPath& path : paths)
-      for (const bool at_end : {false, true})
-        if (at_end ? path.tip_at_end : path.tip_at_start) tips.push_back(tip_of(path, at_end, state));
-    std::erase_if(tips, [](const Tip& tip) { return !(tip.release > 0); });
-    std::stable_sort(tips.begin(), tips.end(), [](const Tip& a, const Tip& b) { return a.release > b.release; });
-    return tips;
-  }
-
-  Tip tip_of(const SeamPath& path, bool at_end, const SeamState& state) const {
-    const std::size_t count = std::min(k_behind, path.halfedges.size());
-    Tip tip;
-    double behind = 0, whole = 0;
-    for (const Index h : path.halfedges) whole += mesh_.length(h);
-    for (std::size_t i = 0; i < count; ++i)
-      behind += mesh_.length(path.halfedges[at_end ? path.halfedges.size() - 1 - i : i]);
-    const Index last = at_end ? path.halfedges.back() : path.halfedges.front();
-    const Index base = path.halfedges[at_end ? path.halfedges.size() - count : count - 1];
-    tip.vertex = at_end ? mesh_.to(last) : mesh_.from(last);
-    const Vec2 at = at_end ? state.uv_at_end(last) : state.uv(last);
-    const Vec2 left = at_end ? state.uv(base) : state.uv_at_end(base);
-    const Vec2 right = at_end ? state.uv_at_end(mesh_.opposite[base]) : state.uv(mesh_.opposite[base]);
-    const Vec2 along = at - 0.5 * (left + right), gap = left - right;
-    if (!(behind > 0) || !(norm(along) > 0)) return tip;
-    tip.direction = (1 / norm(along)) * along;
-    tip.release = 0.25 * std::numbers::pi * dot(gap, gap) / behind;
-    tip.most_mm = k_most_growth * whole;
-    return tip;
-  }
-
-  /// The edge from a vertex that runs most nearly in a direction of the map, not backwards. @return k_none: there is
-  /// none that leaves seams and borders alone.
-  Index next_edge(Index v, Vec2 direction, const SeamState& state, const std::vector<char>& blocked) const {
-    Index best = k_none;
-    double most = 0;
-    for (const Index h : edges_.of(v)) {
-      const Vec2 edge = state.uv_at_end(h) - state.uv(h);
-      const double cosine = dot(edge, direction) / norm(edge);
-      if (!state.seam[h] && cosine > most && !blocked[mesh_.to(h)]) most = cosine, best = h;
-    }
-    return best;
+  double cost_of(const std::vector<Index>& way) const {
+    double cost = 0;
+    for (const Index h : way) cost += mesh_.cost[h];
+    return cost;
   }
 
   const SeamMesh& mesh_;
   OutgoingEdges edges_;
 };
 
+/// What each extension released, from one state to another.
+std::vector<double> released_by(const SeamMesh& mesh, const std::vector<Extension>& extensions, const SeamState& before,
+                                const SeamState& after) {
+  std::vector<std::vector<Index>> places;
+  for (const Extension& e : extensions) places.push_back(e.way);
+  std::vector<double> released = raised_around(mesh, before, after, places);
+  for (double& energy : released) energy = -energy;
+  return released;
+}
+
 }  // namespace
 
 std::optional<SeamState> lengthen_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound,
                                         const MapSeams& map, const Deadline& deadline) {
   const Lengthener lengthener(mesh);
-  double over = 1;  // what was foreseen over what came of it
+  Trust trust;
   for (int round = 0; round < k_rounds && !deadline.passed(); ++round) {
-    const double missing = (1 - (bound.most - 4) / (state.distortion - 4)) * state.energy;
-    std::vector<std::uint8_t> seam = state.seam;
-    if (!lengthener.extend(state, over * k_more * missing, seam)) return {};
-    SeamState next = map(seam, state);
-    if (!next.valid || !(next.distortion < state.distortion)) return {};
+    const double over = (state.distortion - 4) / (bound.most - 4);
+    const double missing = (1 - 1 / over) * state.energy;
+    const double growth = k_most_growth * (std::pow(over, k_usual_growth) - 1);
+    const double most_cost = state.cost_mm > 0 ? growth * state.cost_mm : std::numeric_limits<double>::infinity();
+    const std::vector<Extension> tried = lengthener.extensions(state, trust, k_more * missing, most_cost);
+    if (tried.empty()) return {};
+    SeamState next = map(lengthener.with(tried, state.seam), state);
+    if (!next.valid) return {};
     if (next.distortion <= bound.most + k_bound_slack) return next;
-    over = std::clamp(over * k_more * missing / (state.energy - next.energy), 1.0, k_most_over);
-    state = std::move(next);
+    trust.learn(mesh, tried, released_by(mesh, tried, state, next));
+    if (next.distortion < state.distortion) state = std::move(next);
   }
   return {};
 }
