@@ -119,7 +119,7 @@ std::optional<SeamState> BoundKeeper::finished(SeamState state) {
   std::optional<SeamState> kept = keeps(state) ? std::move(state) : lengthened(std::move(state));
   if (!kept) return {};
   std::vector<double> doubt(mesh_.opposite.size(), 1);
-  return shorten_seams(mesh_, std::move(*kept), bound_, map_, doubt, deadline_);
+  return shorten_seams(mesh_, std::move(*kept), bound_, map_, doubt, deadline_, extent_.most_failures);
 }
 
 /// A map that was made.

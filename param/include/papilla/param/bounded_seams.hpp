@@ -50,7 +50,8 @@ struct SeamTools {
   /// and another one for the next where little comes of that; null: there is none. They have to outlive the search.
   std::function<const CoarseSurface*(std::size_t attempt)> coarse;
   /// Fewer seams are tried: of charts with and without seams along features the cheapest go on, none beyond the bound,
-  /// no tips are moved, and after a hundred maps seams for another coarse bound are not searched on.
+  /// no tips are moved, closing is given up sooner on the whole mesh, and after a hundred maps seams for another coarse
+  /// bound are not searched on.
   bool brief = false;
 };
 
@@ -88,19 +89,23 @@ inline constexpr double k_bound_slack = 1e-6;
 ///
 /// Method. 1. The seam cost λ of the segmentation is bracketed in factors of four and halved once, with seams along
 /// features and without: of what keeps the bound the cheapest of either go on, and of what is near it and has fewer
-/// seams the cheapest, once their slits have run on from the tips that release most energy per length, π δ² / (4 r) for
-/// a slit δ wide at the distance r. Where no seam cost is low enough, the charts of most energy are halved. 2. Seams
-/// are shortened in rounds. Closing a slit from its tip over a gap δ of the map raises the energy Σ A (e - 4) by about
-/// π δ² / 4 (the energy release rate of a crack in a sheet of this energy, [Irwin 1957]); joining two charts over a
-/// stretch by about 3/2 of the largest gap squared that a rigid motion leaves. Of all slits and stretches each round
-/// takes those lengths that save most per energy for the energy that is left; the charts are mapped anew, and what came
-/// out worse than foreseen around a place counts as dearer there from then on. A round that breaks the bound is taken
-/// back and made with half of the energy. 3. Stretches between two places where seams meet or end are laid along the
-/// cheapest way beside the old one while the bound allows it; then rounds begin again. 4. Of the cheapest that comes of
-/// it, stretches without which the seams would fall into two pieces are exchanged for the cheapest way between these
-/// (key-path exchange, [Voß 1992]). 5. It is brought away from the bound and back, its slits end at other vertices, and
-/// 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but those whose map was
-/// left unfinished and is wanted whole; a map may begin at that of the seams that it was made of.
+/// seams the cheapest, once their seams have become longer where that releases most energy per cost: a slit that is δ
+/// wide at the distance r from its tip releases π δ² / (4 r) per length [Irwin 1957] when it runs on, turned by the
+/// angle of the greatest hoop tension [Erdogan and Sih 1963]; a new one, across a tension ε from a stretched seam or
+/// border, 8 π (∫ ε)². Where no seam cost is low enough, the charts of most energy are halved. 2. Seams are shortened
+/// in rounds. Closing a slit from its tip over a gap δ of the map raises the energy Σ A (e - 4) by about π δ² / 4 (the
+/// energy release rate of a crack in a sheet of this energy); joining two charts over a stretch by about 3/2 of the
+/// largest gap squared that a rigid motion leaves. Of all slits and stretches each round takes those lengths that save
+/// most per energy for the energy that is left; the charts are mapped anew, and what came out worse than foreseen
+/// around a place counts as dearer there from then on. A round that breaks the bound is taken back and made with half
+/// of the energy.
+/// 3. Stretches between two places where seams meet or end are laid along the cheapest way beside the old one while the
+/// bound allows it; then rounds begin again. 4. Of the cheapest that comes of it, stretches without which the seams
+/// would fall into two pieces are exchanged for the cheapest way between these (key-path exchange, [Voß 1992]). 5. It
+/// is brought away from the bound and back, its slits end at other vertices, its stretches move sideways to where the
+/// energy on both sides, e_right - e_left per area that they sweep over, and their cost are least together (a least
+/// cut), and 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but those whose
+/// map was left unfinished and is wanted whole; a map may begin at that of the seams that it was made of.
 ///
 /// With `coarse`, all that is done on the coarse mesh, for a bound under which the fine map of the same seams comes out
 /// at the one that is asked for: found from the ratio of their D - 4, once when first seams are short and up to four
