@@ -135,7 +135,7 @@ TEST(MaxDistortion, ABallIsCutAlongACurve) {
       const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
       finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
     }
-    ball.triangles = finer;
+    ball.triangles.assign(finer.begin(), finer.end());
     for (Vec3& p : ball.positions) p = (1 / norm(p)) * p;
   }
   const FlattenedPart part = unwrapped(placed(ball, 5), bounded("4.1"));
