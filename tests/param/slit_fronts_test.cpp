@@ -77,18 +77,20 @@ TEST_F(StretchedSheet, ATipTurnsWhereTheSidesOfItsSlitSlide) {
   // Without opening the hoop tension is greatest 70.5 degrees away, on the side where the sheet is drawn towards the
   // slit: the edges straight up and down are 90 degrees away, those along the diagonals 39.
   const double middle = 5 * k_high;
-  std::vector<std::uint8_t> seam = test::border_seams(seams_);
-  test::draw_seam(seams_, seam, {0, middle, 0}, {8, middle, 0});
-  for (const double slide : {0.02, -0.02}) {
-    const auto slid = [&](Vec3 p, Vec3 inside) {
-      const bool is_on_slit = std::abs(p.y - middle) < 1e-9 && p.x < 8;
-      return Vec2{p.x + (is_on_slit ? (inside.y > middle ? slide : -slide) * (8 - p.x) : 0), p.y};
-    };
-    const SlitFront tip = fronts(state(seam, slid)).front();
-    const Vec3 to = mesh_.positions[seams_.to(tip.way.front())];
-    EXPECT_NEAR(to.x, 8, 1e-9) << slide;
-    EXPECT_NEAR(to.y, middle + (slide > 0 ? -k_high : k_high), 1e-9) << slide;
-  }
+  for (const bool from_right : {false, true})
+    for (const double slide : {0.02, -0.02}) {
+      const double tip = from_right ? 16 : 8;
+      std::vector<std::uint8_t> seam = test::border_seams(seams_);
+      test::draw_seam(seams_, seam, {from_right ? 24.0 : 0.0, middle, 0}, {tip, middle, 0});
+      const auto slid = [&](Vec3 p, Vec3 inside) {  // the upper side towards the tip, the lower one away from it
+        const bool is_on_slit = std::abs(p.y - middle) < 1e-9 && (from_right ? p.x > tip : p.x < tip);
+        return Vec2{p.x + (is_on_slit ? (inside.y > middle ? slide : -slide) * (tip - p.x) : 0), p.y};
+      };
+      const SlitFront front = fronts(state(seam, slid)).front();
+      const Vec3 to = mesh_.positions[seams_.to(front.way.front())];
+      EXPECT_NEAR(to.x, tip, 1e-9) << slide;
+      EXPECT_NEAR(to.y, middle + (slide > 0 ? -k_high : k_high), 1e-9) << slide;
+    }
 }
 
 TEST_F(StretchedSheet, NewSlitsRunAcrossTheTension) {
