@@ -63,7 +63,7 @@ class BoundKeeper {
     int generous;             ///< Costs below the last one that keeps the bound that are tried, too.
     bool moves_tips;          ///< Slits may end at other vertices.
     std::size_t most_maps;    ///< After so many, seams for another bound are not searched on.
-    int most_failures;        ///< Of closing in a row where seams of a coarse mesh are finished.
+    int most_failures;        ///< Maps that break the bound where lifted seams are finished.
   };
   static constexpr Extent k_thorough{3, 2, 1, true, std::numeric_limits<std::size_t>::max(), 6};
   static constexpr Extent k_brief{1, 0, 0, false, 100, 2};

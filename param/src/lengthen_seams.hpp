@@ -11,7 +11,7 @@ namespace papilla::param_detail {
 /// most energy per cost. Each round maps what was lengthened and compares what came of every way with what was
 /// foreseen: a place that released less counts for less from then on, and a round that released nothing is taken back.
 /// @param state valid, beyond the bound. @param map measures all that it maps, whatever it comes to.
-/// @return a state that keeps the bound; nothing where a few rounds do not get there.
+/// @return a state that keeps the bound; nothing where six maps do not get there.
 std::optional<SeamState> lengthen_seams(const SeamMesh& mesh, SeamState state, const DistortionBound& bound,
                                         const MapSeams& map, const Deadline& deadline);
 

@@ -27,7 +27,7 @@ struct SlitFront {
 ///
 /// A new slit begins where a seam or border is stretched, and runs across the greatest tension ε while that is more
 /// than half of its mean: it releases k π (∫ ε)², where k = 1.12² 8 / 2 for a short crack from the straight border of a
-/// sheet under tension. What came of 400 such slits of scans was half as much again to three times as much: k = 8 here.
+/// sheet under tension. Here k = 8: with it the seams of 71 scans came out 0.993 as long as with 5.
 /// Ways stop before seams, borders, and half of √(area).
 /// @param state with its uv. @return those of tips first, in the order of seam_paths(); of new ones those of most
 /// energy per cost, at most eight, none through a neighbour of a vertex of another. O(n log n).

@@ -98,14 +98,13 @@ inline constexpr double k_bound_slack = 1e-6;
 /// largest gap squared that a rigid motion leaves. Of all slits and stretches each round takes those lengths that save
 /// most per energy for the energy that is left; the charts are mapped anew, and what came out worse than foreseen
 /// around a place counts as dearer there from then on. A round that breaks the bound is taken back and made with half
-/// of the energy.
-/// 3. Stretches between two places where seams meet or end are laid along the cheapest way beside the old one while the
-/// bound allows it; then rounds begin again. 4. Of the cheapest that comes of it, stretches without which the seams
-/// would fall into two pieces are exchanged for the cheapest way between these (key-path exchange, [Voß 1992]). 5. It
-/// is brought away from the bound and back, its slits end at other vertices, its stretches move sideways to where the
-/// energy on both sides, e_right - e_left per area that they sweep over, and their cost are least together (a least
-/// cut), and 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but those whose
-/// map was left unfinished and is wanted whole; a map may begin at that of the seams that it was made of.
+/// of the energy. 3. Stretches between two places where seams meet or end are laid along the cheapest way beside the
+/// old one while the bound allows it; then rounds begin again. 4. Of the cheapest that comes of it, stretches without
+/// which the seams would fall into two pieces are exchanged for the cheapest way between these (key-path exchange, [Voß
+/// 1992]). 5. It is brought away from the bound and back, its slits end at other vertices, its stretches move sideways
+/// to where the energy on both sides, e_right - e_left per area that they sweep over, and their cost are least together
+/// (a least cut), and 4. begins again while that pays. No seams are mapped twice as long as they are remembered, but
+/// those whose map was left unfinished and is wanted whole; a map may begin at that of the seams that it was made of.
 ///
 /// With `coarse`, all that is done on the coarse mesh, for a bound under which the fine map of the same seams comes out
 /// at the one that is asked for: found from the ratio of their D - 4, once when first seams are short and up to four
@@ -116,7 +115,7 @@ inline constexpr double k_bound_slack = 1e-6;
 /// Guarantees: the charts are those of `map`, of genus 0 with a border when those of `chart` are. `kept` says whether
 /// the bound is kept; when it is not, the map of the least distortion that was found is the result. Not the shortest
 /// seams there are: a local search; a coarse mesh that has no place for the details of the fine one costs some per
-/// cent. Cost: 20 to 300 maps, most often 100; with `coarse` so many of the coarse mesh, and 6 of the whole.
+/// cent. Cost: 20 to 300 maps, most often 100; with `coarse` so many of the coarse mesh, and 6 to 8 of the whole.
 /// Deterministic when the tools are.
 /// @throws InvalidInput for a bound out of range or costs that do not fit the mesh; what the tools throw.
 BoundedSeams keep_bound(const TriangleMesh& mesh, const DistortionBound& bound, const SeamTools& tools,
