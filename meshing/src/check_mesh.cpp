@@ -54,6 +54,10 @@ void check_mesh(const TriangleMesh& mesh, std::string_view function) {
 
 void check_charts(const TriangleMesh& mesh, const ChartSet& charts, const char* function) {
   check_mesh(mesh, function);
+  check_chart_numbers(mesh, charts, function);
+}
+
+void check_chart_numbers(const TriangleMesh& mesh, const ChartSet& charts, const char* function) {
   const std::string name(function);
   if (charts.of_triangle.size() != mesh.triangles.size())
     throw InvalidInput(name + ": " + std::to_string(charts.of_triangle.size()) + " chart numbers for " +
@@ -67,13 +71,17 @@ void check_charts(const TriangleMesh& mesh, const ChartSet& charts, const char* 
 std::vector<Index> opposite_within_charts(const TriangleMesh& mesh, const EdgeTable& edges, const ChartSet& charts,
                                           const char* function) {
   std::vector<Index> opposite = opposite_within_labels(mesh.triangles, edges, charts.of_triangle);
-  for (const Index h : charts.cuts) {
+  open_cuts(charts.cuts, opposite, function);
+  return opposite;
+}
+
+void open_cuts(std::span<const Index> cuts, std::span<Index> opposite, const char* function) {
+  for (const Index h : cuts) {
     if (h >= opposite.size() || opposite[h] == k_none)
       throw InvalidInput(std::string(function) + ": cut " + std::to_string(h) + " is no edge within a chart");
     opposite[opposite[h]] = k_none;
     opposite[h] = k_none;
   }
-  return opposite;
 }
 
 bool is_distance_position(const Vec3& p) noexcept {

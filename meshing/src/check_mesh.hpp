@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "edge_table.hpp"
@@ -17,10 +18,17 @@ void check_mesh(const TriangleMesh& mesh, std::string_view function);
 /// @throws InvalidInput naming `function` when the mesh has a bad index or coordinate, or the charts don't fit it.
 void check_charts(const TriangleMesh& mesh, const ChartSet& charts, const char* function);
 
+/// @throws InvalidInput naming `function` when the charts don't fit the number of triangles.
+void check_chart_numbers(const TriangleMesh& mesh, const ChartSet& charts, const char* function);
+
 /// The opposite half-edges within each chart, cuts open.
 /// @throws InvalidInput naming `function` for a cut that is no edge within a chart.
 std::vector<Index> opposite_within_charts(const TriangleMesh& mesh, const EdgeTable& edges, const ChartSet& charts,
                                           const char* function);
+
+/// Parts opposite half-edges within charts along cuts.
+/// @throws InvalidInput naming `function` for a cut that is no edge within a chart.
+void open_cuts(std::span<const Index> cuts, std::span<Index> opposite, const char* function);
 
 /// Whether a position is finite and within 1e15 mm, beyond which single precision boxes of size ratios overflow.
 bool is_distance_position(const Vec3& p) noexcept;

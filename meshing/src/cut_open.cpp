@@ -3,86 +3,113 @@
 
 #include <algorithm>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 #include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/union_find.hpp"
 
 namespace papilla {
-namespace {
 
 using namespace detail;
 
-/// Opposite half-edges of the whole mesh and within the opened charts.
-struct Connectivity {
-  std::vector<Index> whole, open;
-};
-
-Connectivity connect(const TriangleMesh& mesh, const EdgeTable& edges, const ChartSet& charts, const char* function) {
-  return {opposite_halfedges(mesh.triangles, edges), opposite_within_charts(mesh, edges, charts, function)};
+CutOpener::CutOpener(const TriangleMesh& mesh) : mesh_(mesh) {
+  check_mesh(mesh, "cut_open");
+  const EdgeTable edges(mesh.triangles, mesh.positions.size());
+  opposite_ = opposite_halfedges(mesh.triangles, edges);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.halfedges(e);
+    if (h.size() > 2) crowded_.emplace_back(h.begin(), h.end());
+  }
 }
 
-Connectivity connect(const TriangleMesh& mesh, const ChartSet& charts, const char* function) {
-  check_charts(mesh, charts, function);
-  return connect(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), charts, function);
+/// The opposite half-edges within each chart.
+std::vector<Index> CutOpener::opposite_within(const ChartSet& charts) const {
+  std::vector<Index> opposite(opposite_.size());
+  const auto chart_of = [&](Index h) { return charts.of_triangle[triangle_of(h)]; };
+  for (Index h = 0; h < opposite.size(); ++h) {
+    const Index other = opposite_[h];
+    opposite[h] = other != k_none && chart_of(h) == chart_of(other) ? other : k_none;
+  }
+  for (const std::vector<Index>& edge : crowded_) link_within_labels(mesh_.triangles, edge, charts.of_triangle, opposite);
+  return opposite;
 }
 
-double seam_length(const TriangleMesh& mesh, const Connectivity& connectivity) {
+/// The same with the cuts open.
+std::vector<Index> CutOpener::opposite_where_closed(const ChartSet& charts, const char* function) const {
+  std::vector<Index> opposite = opposite_within(charts);
+  open_cuts(charts.cuts, opposite, function);
+  return opposite;
+}
+
+double CutOpener::length_of_seams(const std::vector<Index>& closed) const {
   double length = 0;
-  for (Index h = 0; h < connectivity.whole.size(); ++h) {
-    const Index other = connectivity.whole[h];
-    if (other == k_none || other < h || connectivity.open[h] != k_none) continue;
-    length += norm(mesh.positions[to_vertex(mesh.triangles, h)] - mesh.positions[from_vertex(mesh.triangles, h)]);
+  for (Index h = 0; h < opposite_.size(); ++h) {
+    const Index other = opposite_[h];
+    if (other == k_none || other < h || closed[h] != k_none) continue;
+    length += norm(mesh_.positions[to_vertex(mesh_.triangles, h)] - mesh_.positions[from_vertex(mesh_.triangles, h)]);
   }
   return length;
 }
 
-}  // namespace
-
-TriangleMesh cut_open(TriangleMesh mesh, const ChartSet& charts) {
-  if (charts.cuts.empty()) return check_charts(mesh, charts, "cut_open"), mesh;
-  const Connectivity connectivity = connect(mesh, charts, "cut_open");
-  UnionFind fans = join_fans(connectivity.open);
-  // The first fan of a chart at a vertex keeps its number; so do all fans of charts that no cut divides there.
+TriangleMesh CutOpener::open(const ChartSet& charts) const {
+  check_chart_numbers(mesh_, charts, "cut_open");
+  TriangleMesh mesh = mesh_;
+  if (charts.cuts.empty()) return mesh;
+  const std::vector<Index> closed = opposite_where_closed(charts, "cut_open");
   std::vector<std::uint8_t> divided(mesh.positions.size(), 0);
   for (const Index h : charts.cuts) divided[from_vertex(mesh.triangles, h)] = divided[to_vertex(mesh.triangles, h)] = 1;
-  std::vector<Index> copy(3 * mesh.triangles.size(), k_none);
-  std::vector<std::vector<std::uint32_t>> charts_at(mesh.positions.size());
-  const std::size_t corners = copy.size();
-  for (Index c = 0; c < corners; ++c) {
-    const Index v = mesh.triangles[c / 3][c % 3];
-    if (!divided[v] || fans.find(c) != c) continue;
-    const std::uint32_t chart = charts.of_triangle[c / 3];
-    auto& here = charts_at[v];
-    if (std::find(here.begin(), here.end(), chart) == here.end()) {
-      here.push_back(chart);
-      continue;
-    }
-    copy[c] = static_cast<Index>(mesh.positions.size());
-    mesh.positions.push_back(mesh.positions[v]);
+  UnionFind fans(closed.size());
+  for (Index h = 0; h < closed.size(); ++h) {
+    if (closed[h] == k_none) continue;
+    if (divided[from_vertex(mesh.triangles, h)]) fans.unite(h, next_halfedge(closed[h]));
   }
-  for (Index c = 0; c < corners; ++c) {
-    const Index number = copy[fans.find(c)];
-    if (number != k_none) mesh.triangles[c / 3][c % 3] = number;
+  // The first fan of a chart at a vertex keeps its number; so do all fans of charts that no cut divides there.
+  std::vector<Index> copy(closed.size(), k_none);
+  std::unordered_map<Index, std::vector<std::uint32_t>> charts_at;
+  for (Index c = 0; c < copy.size(); ++c) {
+    const Index v = from_vertex(mesh_.triangles, c);
+    if (!divided[v]) continue;
+    const Index fan = fans.find(c);
+    if (fan == c) {
+      const std::uint32_t chart = charts.of_triangle[triangle_of(c)];
+      auto& here = charts_at[v];
+      if (std::find(here.begin(), here.end(), chart) == here.end()) {
+        here.push_back(chart);
+      } else {
+        copy[c] = static_cast<Index>(mesh.positions.size());
+        mesh.positions.push_back(mesh.positions[v]);
+      }
+    }
+    if (copy[fan] != k_none) mesh.triangles[triangle_of(c)][corner_of(c)] = copy[fan];
   }
   return mesh;
 }
 
-double seam_length(const TriangleMesh& mesh, const ChartSet& charts) {
-  return seam_length(mesh, connect(mesh, charts, "seam_length"));
+double CutOpener::seam_length(const ChartSet& charts) const {
+  check_chart_numbers(mesh_, charts, "seam_length");
+  return length_of_seams(opposite_where_closed(charts, "seam_length"));
 }
 
-void keep_cuts(const TriangleMesh& mesh, std::span<const Index> halfedges, ChartSet& charts) {
-  check_charts(mesh, charts, "keep_cuts");
-  const EdgeTable edges(mesh.triangles, mesh.positions.size());
-  const std::vector<Index> within = opposite_within_labels(mesh.triangles, edges, charts.of_triangle);
+void CutOpener::keep_cuts(std::span<const Index> halfedges, ChartSet& charts) const {
+  check_chart_numbers(mesh_, charts, "keep_cuts");
+  std::vector<Index> closed = opposite_within(charts);
   charts.cuts.clear();
   for (const Index h : halfedges) {
-    if (h >= within.size())
-      throw InvalidInput("keep_cuts: half-edge " + std::to_string(h) + " of " + std::to_string(within.size()));
-    if (within[h] != k_none) charts.cuts.push_back(h);
+    if (h >= closed.size())
+      throw InvalidInput("keep_cuts: half-edge " + std::to_string(h) + " of " + std::to_string(closed.size()));
+    if (closed[h] != k_none) charts.cuts.push_back(h);
   }
-  charts.seam_length_mm = seam_length(mesh, connect(mesh, edges, charts, "keep_cuts"));
+  open_cuts(charts.cuts, closed, "keep_cuts");
+  charts.seam_length_mm = length_of_seams(closed);
 }
+
+TriangleMesh cut_open(const TriangleMesh& mesh, const ChartSet& charts) {
+  if (charts.cuts.empty()) return check_charts(mesh, charts, "cut_open"), mesh;
+  return CutOpener(mesh).open(charts);
+}
+
+double seam_length(const TriangleMesh& mesh, const ChartSet& charts) { return CutOpener(mesh).seam_length(charts); }
 
 }  // namespace papilla

@@ -88,20 +88,25 @@ std::vector<Index> opposite_halfedges(std::span<const Triangle> triangles, const
 std::vector<Index> opposite_within_labels(std::span<const Triangle> triangles, const EdgeTable& edges,
                                           std::span<const std::uint32_t> labels) {
   std::vector<Index> opposite(3 * triangles.size(), k_none);
-  std::vector<std::pair<std::uint32_t, Index>> group;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    group.clear();
-    for (const Index h : edges.halfedges(e)) group.emplace_back(labels[triangle_of(h)], h);
-    std::sort(group.begin(), group.end());
-    for (std::size_t begin = 0, end = 0; begin < group.size(); begin = end) {
-      while (end < group.size() && group[end].first == group[begin].first) ++end;
-      const Index a = group[begin].second, b = group[end - 1].second;
-      if (end - begin != 2 || runs_up(triangles, a) == runs_up(triangles, b)) continue;
-      opposite[a] = b;
-      opposite[b] = a;
-    }
-  }
+  for (std::size_t e = 0; e < edges.size(); ++e) link_within_labels(triangles, edges.halfedges(e), labels, opposite);
   return opposite;
+}
+
+void link_within_labels(std::span<const Triangle> triangles, std::span<const Index> edge,
+                        std::span<const std::uint32_t> labels, std::span<Index> opposite) {
+  const auto label_of = [&](Index h) { return labels[triangle_of(h)]; };
+  const auto link = [&](Index a, Index b) {
+    if (runs_up(triangles, a) != runs_up(triangles, b)) opposite[a] = b, opposite[b] = a;
+  };
+  if (edge.size() == 2 && label_of(edge[0]) == label_of(edge[1])) link(edge[0], edge[1]);
+  if (edge.size() <= 2) return;
+  std::vector<std::pair<std::uint32_t, Index>> group;
+  for (const Index h : edge) group.emplace_back(label_of(h), h);
+  std::sort(group.begin(), group.end());
+  for (std::size_t begin = 0, end = 0; begin < group.size(); begin = end) {
+    while (end < group.size() && group[end].first == group[begin].first) ++end;
+    if (end - begin == 2) link(group[begin].second, group[end - 1].second);
+  }
 }
 
 UnionFind join_fans(std::span<const Index> opposite) {

@@ -58,6 +58,10 @@ std::vector<Index> opposite_halfedges(std::span<const Triangle> triangles, const
 std::vector<Index> opposite_within_labels(std::span<const Triangle> triangles, const EdgeTable& edges,
                                           std::span<const std::uint32_t> labels);
 
+/// Links the half-edges of one edge so. @param opposite gets them, and keeps those of labels with another number.
+void link_within_labels(std::span<const Triangle> triangles, std::span<const Index> edge,
+                        std::span<const std::uint32_t> labels, std::span<Index> opposite);
+
 /// Joins the corners of one vertex that are linked through opposite half-edges: each set is one fan of triangles
 /// around a vertex, and a manifold vertex has one. Corners are numbered like half-edges.
 UnionFind join_fans(std::span<const Index> opposite);

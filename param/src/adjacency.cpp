@@ -2,7 +2,10 @@
 #include "adjacency.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <tuple>
+#include <vector>
 
 namespace papilla::param_detail {
 namespace {
@@ -10,42 +13,48 @@ namespace {
 /// Vertices with more corners than this are matched by sorting instead of scanning.
 constexpr Index k_hub_valence = 64;
 
-constexpr Index next(Index corner) noexcept { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 constexpr Index previous(Index corner) noexcept { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-/// The corners around each vertex: corners[first[v]] to corners[first[v + 1]].
-struct VertexCorners {
-  std::vector<Index> first, corners;
-  Index valence(Index v) const { return first[v + 1] - first[v]; }
+/// A corner as its vertex sees it: the vertices after and before it in its triangle.
+struct StarCorner {
+  Index after, before, corner;
 };
 
-VertexCorners corners_of_vertices(const Index* vertex, std::size_t corner_count, std::size_t vertex_count) {
-  VertexCorners result;
-  result.first.assign(vertex_count + 2, 0);
-  for (std::size_t c = 0; c < corner_count; ++c) ++result.first[vertex[c] + 2];
-  for (std::size_t v = 2; v < result.first.size(); ++v) result.first[v] += result.first[v - 1];
-  result.corners.resize(corner_count);
-  for (std::size_t c = 0; c < corner_count; ++c) result.corners[result.first[vertex[c] + 1]++] = static_cast<Index>(c);
-  result.first.pop_back();
-  return result;
+/// The corners around each vertex: corners[first[v]] to corners[first[v + 1]].
+struct Stars {
+  std::vector<Index> first;
+  std::vector<StarCorner> corners;
+  Index valence(Index v) const { return first[v + 1] - first[v]; }
+  std::span<const StarCorner> of(Index v) const { return std::span(corners).subspan(first[v], valence(v)); }
+};
+
+Stars stars_of(const TriangleMesh& mesh) {
+  Stars stars;
+  stars.first.assign(mesh.positions.size() + 2, 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const Index v : t) ++stars.first[v + 2];
+  std::partial_sum(stars.first.begin(), stars.first.end(), stars.first.begin());
+  stars.corners.resize(3 * mesh.triangles.size());
+  for (Index i = 0; i < mesh.triangles.size(); ++i) {
+    const auto [a, b, c] = mesh.triangles[i];
+    stars.corners[stars.first[a + 1]++] = {b, c, 3 * i};
+    stars.corners[stars.first[b + 1]++] = {c, a, 3 * i + 1};
+    stars.corners[stars.first[c + 1]++] = {a, b, 3 * i + 2};
+  }
+  stars.first.pop_back();
+  return stars;
 }
 
-/// The halfedges of the edge from a to b that are seen from the corners at `at` (a or b).
-struct EdgeUses {
-  Index forward = 0, backward = 0;            ///< How many run a -> b and b -> a.
-  Index forward_edge = 0, backward_edge = 0;  ///< The last of them.
-};
-
-EdgeUses edge_uses(const Index* vertex, const VertexCorners& around, Index at, Index other, bool at_is_start) {
-  Index leaving = 0, arriving = 0, leaving_edge = 0, arriving_edge = 0;
-  for (Index i = around.first[at]; i < around.first[at + 1]; ++i) {
-    const Index c = around.corners[i];
-    if (vertex[next(c)] == other) ++leaving, leaving_edge = c;
-    const Index before = previous(c);
-    if (vertex[before] == other) ++arriving, arriving_edge = before;
+/// Links the two triangles of an edge, given a halfedge of it and all that its vertex sees.
+void link_edge(std::span<const StarCorner> star, const StarCorner& edge, Adjacency& across) {
+  Index forward = 0, backward = 0, back = 0;
+  for (const StarCorner& c : star) {
+    forward += c.after == edge.after;
+    if (c.before == edge.after) ++backward, back = previous(c.corner);
   }
-  if (at_is_start) return {leaving, arriving, leaving_edge, arriving_edge};
-  return {arriving, leaving, arriving_edge, leaving_edge};
+  if (forward != 1 || backward != 1 || back / 3 == edge.corner / 3) return;
+  across[edge.corner] = back / 3;
+  across[back] = edge.corner / 3;
 }
 
 /// A halfedge between two hubs; sorting brings the uses of one edge together.
@@ -73,25 +82,19 @@ void link_hub_edges(std::vector<HubEdge>& edges, Adjacency& across) {
 }  // namespace
 
 Adjacency connect_triangles(const TriangleMesh& mesh) {
-  const std::size_t corner_count = 3 * mesh.triangles.size();
-  Adjacency across(corner_count, k_no_triangle);
-  if (corner_count == 0) return across;
-  const Index* vertex = mesh.triangles.front().data();
-  const VertexCorners around = corners_of_vertices(vertex, corner_count, mesh.positions.size());
+  Adjacency across(3 * mesh.triangles.size(), k_no_triangle);
+  const Stars stars = stars_of(mesh);
   std::vector<HubEdge> hub_edges;
-  for (Index h = 0; h < corner_count; ++h) {
-    if (across[h] != k_no_triangle) continue;
-    const Index a = vertex[h], b = vertex[next(h)];
-    if (a == b) continue;
-    const bool at_start = around.valence(a) <= around.valence(b);
-    if (around.valence(at_start ? a : b) > k_hub_valence) {
-      hub_edges.push_back({std::min(a, b), std::max(a, b), h, a < b});
-      continue;
+  for (Index a = 0; a < mesh.positions.size(); ++a) {
+    const bool hub = stars.valence(a) > k_hub_valence;
+    for (const StarCorner& edge : stars.of(a)) {
+      const Index b = edge.after;
+      const bool to_hub = stars.valence(b) > k_hub_valence;
+      if (hub && to_hub)
+        hub_edges.push_back({std::min(a, b), std::max(a, b), edge.corner, a < b});
+      else if (!hub && (a < b || (to_hub && a != b)))
+        link_edge(stars.of(a), edge, across);
     }
-    const EdgeUses uses = edge_uses(vertex, around, at_start ? a : b, at_start ? b : a, at_start);
-    if (uses.forward != 1 || uses.backward != 1 || uses.forward_edge / 3 == uses.backward_edge / 3) continue;
-    across[uses.forward_edge] = uses.backward_edge / 3;
-    across[uses.backward_edge] = uses.forward_edge / 3;
   }
   link_hub_edges(hub_edges, across);
   return across;

@@ -29,9 +29,10 @@ constexpr int k_parallel_depth = 5;
 /// Fronts that one thread works through at a time.
 constexpr std::size_t k_fronts_together = 64;
 
+/// Neighbours ascend.
 struct Graph {
-  std::vector<Index> first, neighbors;
-  std::span<const Index> of(Index v) const { return {neighbors.data() + first[v], first[v + 1] - first[v]}; }
+  std::vector<Index> begin, end, neighbors;
+  std::span<const Index> of(Index v) const { return {neighbors.data() + begin[v], end[v] - begin[v]}; }
 };
 
 Graph graph_of(const Elements& elements, Index count) {
@@ -46,25 +47,29 @@ Graph graph_of(const Elements& elements, Index count) {
     }
   std::partial_sum(room.begin(), room.end(), room.begin());
   // Vertices enter their neighbours' lists in ascending order, so that a second time comes right after the first.
-  std::vector<Index> list(room.back()), end(room.begin(), room.end() - 1);
+  Graph graph;
+  graph.neighbors.resize(room.back());
+  room.pop_back();
+  graph.begin = graph.end = std::move(room);
   for (Index v = 0; v < count; ++v)
     for (Index i = begin[v]; i < begin[v + 1]; ++i)
-      for (const Index w : elements.of(element_of[i]))
-        if (w != v && (end[w] == room[w] || list[end[w] - 1] != v)) list[end[w]++] = v;
-  Graph graph;
-  graph.first.assign(1, 0);
-  graph.first.reserve(count + 1);
-  for (Index v = 0; v < count; ++v) graph.first.push_back(graph.first.back() + end[v] - room[v]);
-  graph.neighbors.reserve(graph.first.back());
-  for (Index v = 0; v < count; ++v)
-    graph.neighbors.insert(graph.neighbors.end(), list.begin() + room[v], list.begin() + end[v]);
+      for (const Index w : elements.of(element_of[i])) {
+        Index& end = graph.end[w];
+        if (w != v && (end == graph.begin[w] || graph.neighbors[end - 1] != v)) graph.neighbors[end++] = v;
+      }
   return graph;
 }
 
 class Dissector {
  public:
   Dissector(const Graph& graph, std::span<const Vec3> where, Index leaf)
-      : graph_(graph), where_(where), leaf_(leaf), region_(where.size(), 0), mark_(where.size(), 0) {}
+      : graph_(graph),
+        where_(where),
+        leaf_(leaf),
+        mark_(where.size(), 0),
+        placed_(where.size()),
+        sorted_(where.size()),
+        parted_(where.size()) {}
 
   Dissection run() {
     Dissection result;
@@ -81,15 +86,16 @@ class Dissector {
   /// Brings the members into elimination order and appends the fronts of their subtree, the root last.
   void split(std::span<Index> members, int depth, std::vector<Front>& fronts) {
     if (members.size() <= leaf_) return add_front(members, k_no_front, k_no_front, fronts);
-    const std::uint32_t inside = ++regions_;
-    for (const Index v : members) std::atomic_ref(region_[v]).store(inside, std::memory_order_relaxed);
-    Cut best = cut_along_longest_axis(members, inside);
-    if (static_cast<double>(best.separator) > k_long_separator * std::sqrt(static_cast<double>(members.size()))) {
-      const Cut by_distance = cut_by_distance(members, inside);
-      if (by_distance.separator < best.separator) best = by_distance;
+    sort_along_longest_axis(members);
+    Cut cut;
+    take_if_shorter(cut, members);
+    if (static_cast<double>(cut.separator) > k_long_separator * std::sqrt(static_cast<double>(members.size()))) {
+      sort_by_distance(members);
+      take_if_shorter(cut, members);
     }
-    arrange(members, best);
-    const std::span<Index> left = members.subspan(0, best.left), right = members.subspan(best.left, best.right);
+    const std::span<const Index> parted = room(parted_, members);
+    std::copy(parted.begin(), parted.end(), members.begin());
+    const std::span<Index> left = members.subspan(0, cut.left), right = members.subspan(cut.left, cut.right);
     Index left_root = 0;
     if (depth < k_parallel_depth && right.size() > k_parallel_members) {
       std::vector<Front> of_right;
@@ -101,7 +107,7 @@ class Dissector {
       left_root = static_cast<Index>(fronts.size() - 1);
       split(right, depth + 1, fronts);
     }
-    add_front(members.subspan(best.left + best.right), left_root, static_cast<Index>(fronts.size() - 1), fronts);
+    add_front(members.subspan(cut.left + cut.right), left_root, static_cast<Index>(fronts.size() - 1), fronts);
   }
 
   /// Appends the fronts of a subtree that were numbered from 0 on.
@@ -123,101 +129,118 @@ class Dissector {
     fronts.push_back(std::move(front));
   }
 
-  /// Whether a neighbour of a member is a member; others may be in the hands of another thread.
-  bool is_inside(Index v, std::uint32_t region) {
-    return std::atomic_ref(region_[v]).load(std::memory_order_relaxed) == region;
+  /// A branch has numbers of its own. The marks of others, which other threads may be writing, differ from all of them.
+  std::uint32_t mark_of(Index v) { return std::atomic_ref(mark_[v]).load(std::memory_order_relaxed); }
+  void mark(Index v, std::uint32_t number) { std::atomic_ref(mark_[v]).store(number, std::memory_order_relaxed); }
+  void mark(std::span<const Index> members, std::uint32_t number) {
+    for (const Index v : members) mark(v, number);
   }
 
-  /// The members of the left part, the right part and the separator, in this order.
-  struct Cut {
-    std::vector<Index> members;
-    std::size_t left = 0, right = 0, separator = std::numeric_limits<std::size_t>::max();
-  };
-
-  static void arrange(std::span<Index> members, const Cut& cut) {
-    std::copy(cut.members.begin(), cut.members.end(), members.begin());
+  /// Room for as many members, in the same place for each branch.
+  template <class T>
+  std::span<T> room(std::vector<T>& of_all, std::span<const Index> members) const {
+    return std::span(of_all).subspan(static_cast<std::size_t>(members.data() - all_), members.size());
   }
 
-  Cut cut_along_longest_axis(std::span<const Index> members, std::uint32_t inside) {
+  void sort_along_longest_axis(std::span<const Index> members) {
     Bounds3 bounds;
     for (const Index v : members) bounds.add(where_[v]);
     const Vec3 extent = bounds.size();
     double Vec3::*axis = &Vec3::x;
     if (extent.y > extent.*axis) axis = &Vec3::y;
     if (extent.z > extent.*axis) axis = &Vec3::z;
-    std::vector<Index> sorted(members.begin(), members.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end(), [&](Index a, Index b) {
-      const double x = where_[a].*axis, y = where_[b].*axis;
-      return x != y ? x < y : a < b;
-    });
-    return cut_at(std::move(sorted), members.size() / 2, inside);
+    const std::span<Place> places = room(placed_, members);
+    for (std::size_t i = 0; i < members.size(); ++i) places[i] = {where_[members[i]].*axis, members[i]};
+    const auto middle = places.begin() + static_cast<std::ptrdiff_t>(members.size() / 2);
+    std::nth_element(places.begin(), middle, places.end(),
+                     [](const Place& a, const Place& b) { return a.along != b.along ? a.along < b.along : a.v < b.v; });
+    const std::span<Index> sorted = room(sorted_, members);
+    for (std::size_t i = 0; i < members.size(); ++i) sorted[i] = places[i].v;
   }
 
-  /// Breadth first from a member that is far from the first one; split where half of the members are reached.
-  Cut cut_by_distance(std::span<const Index> members, std::uint32_t inside) {
-    const Index far = breadth_first(members, members[0], inside).back();
-    return cut_at(breadth_first(members, far, inside), members.size() / 2, inside);
+  /// Breadth first from a member that is far from the first one.
+  void sort_by_distance(std::span<const Index> members) {
+    sort_by_distance_from(members.front(), members);
+    sort_by_distance_from(room(sorted_, members).back(), members);
   }
 
-  /// All members by distance from `start`; those of other components follow.
-  std::vector<Index> breadth_first(std::span<const Index> members, Index start, std::uint32_t inside) {
-    const std::uint32_t seen = ++marks_;
-    std::vector<Index> queue{start};
-    queue.reserve(members.size());
-    mark_[start] = seen;
-    std::size_t next_member = 0;
-    for (std::size_t i = 0; queue.size() < members.size();) {
-      if (i == queue.size()) {
-        while (mark_[members[next_member]] == seen) ++next_member;
-        queue.push_back(members[next_member]);
-        mark_[members[next_member]] = seen;
+  /// Those of other components follow.
+  void sort_by_distance_from(Index start, std::span<const Index> members) {
+    const std::uint32_t unseen = ++marks_, seen = ++marks_;
+    mark(members, unseen);
+    const std::span<Index> queue = room(sorted_, members);
+    std::size_t end = 0, next_member = 0;
+    const auto reach = [&](Index v) {
+      mark(v, seen);
+      queue[end++] = v;
+    };
+    reach(start);
+    for (std::size_t i = 0; end < members.size();) {
+      if (i == end) {
+        while (mark_of(members[next_member]) == seen) ++next_member;
+        reach(members[next_member]);
       }
       for (const Index w : graph_.of(queue[i++]))
-        if (is_inside(w, inside) && mark_[w] != seen) mark_[w] = seen, queue.push_back(w);
+        if (mark_of(w) == unseen) reach(w);
     }
-    return queue;
   }
 
-  /// Splits a sorted list at `middle`; the separator covers every edge between the halves.
-  Cut cut_at(std::vector<Index> sorted, std::size_t middle, std::uint32_t inside) {
-    const std::uint32_t right_half = ++marks_;
-    for (std::size_t i = middle; i < sorted.size(); ++i) mark_[sorted[i]] = right_half;
-    const std::uint32_t right_at_cut = ++marks_, separator = ++marks_;
-    std::array<std::vector<Index>, 2> at_cut;
-    for (std::size_t i = 0; i < middle; ++i) {
+  /// How many members are on the left, on the right and between.
+  struct Cut {
+    std::size_t left = 0, right = 0, separator = std::numeric_limits<std::size_t>::max();
+  };
+
+  /// Splits the sorted members in the middle; the separator covers every edge between the halves. Where it is smaller
+  /// than that of `cut`, the parts are put one after the other: left, right, separator.
+  void take_if_shorter(Cut& cut, std::span<const Index> members) {
+    const std::span<const Index> sorted = room(sorted_, members);
+    const std::span<const Index> left = sorted.first(sorted.size() / 2), right = sorted.subspan(left.size());
+    const std::uint32_t right_half = ++marks_, right_at_cut = ++marks_, separator = ++marks_;
+    mark(right, right_half);
+    std::vector<Index> at_cut;
+    std::size_t right_members = 0;
+    for (const Index v : left) {
       bool touches = false;
-      for (const Index w : graph_.of(sorted[i]))
-        if (is_inside(w, inside) && (mark_[w] == right_half || mark_[w] == right_at_cut))
-          touches = true, mark_[w] = right_at_cut;
-      if (touches) at_cut[0].push_back(sorted[i]);
+      for (const Index w : graph_.of(v)) {
+        const std::uint32_t other = mark_of(w);
+        if (other == right_half) mark(w, right_at_cut), ++right_members;
+        touches = touches || other == right_half || other == right_at_cut;
+      }
+      if (touches) at_cut.push_back(v);
     }
-    for (std::size_t i = middle; i < sorted.size(); ++i)
-      if (mark_[sorted[i]] == right_at_cut) at_cut[1].push_back(sorted[i]);
     // The half whose members at the cut are fewer gives the separator.
-    const std::vector<Index>& chosen = at_cut[at_cut[1].size() < at_cut[0].size()];
-    std::vector<Index> members;
-    members.reserve(sorted.size());
-    for (const Index v : chosen) mark_[v] = separator;
-    Cut cut;
-    for (std::size_t i = 0; i < middle; ++i)
-      if (mark_[sorted[i]] != separator) members.push_back(sorted[i]);
-    cut.left = members.size();
-    for (std::size_t i = middle; i < sorted.size(); ++i)
-      if (mark_[sorted[i]] != separator) members.push_back(sorted[i]);
-    cut.right = members.size() - cut.left;
-    cut.separator = chosen.size();
-    members.insert(members.end(), chosen.begin(), chosen.end());
-    cut.members = std::move(members);
-    return cut;
+    if (right_members < at_cut.size()) {
+      at_cut.clear();
+      for (const Index v : right)
+        if (mark_of(v) == right_at_cut) at_cut.push_back(v);
+    }
+    if (at_cut.size() >= cut.separator) return;
+    mark(at_cut, separator);
+    const std::span<Index> parted = room(parted_, members);
+    std::size_t end = 0;
+    for (const Index v : left)
+      if (mark_of(v) != separator) parted[end++] = v;
+    cut.left = end;
+    for (const Index v : right)
+      if (mark_of(v) != separator) parted[end++] = v;
+    cut.right = end - cut.left;
+    cut.separator = at_cut.size();
+    std::copy(at_cut.begin(), at_cut.end(), parted.begin() + static_cast<std::ptrdiff_t>(end));
   }
+
+  struct Place {
+    double along;
+    Index v;
+  };
 
   const Graph& graph_;
   std::span<const Vec3> where_;
   Index leaf_;
-  std::vector<std::uint32_t> region_, mark_;
-  std::atomic<std::uint32_t> regions_ = 0, marks_ = 0;  ///< Numbers that were given, each to one thread.
-  const Index* all_ = nullptr;                          ///< The order of all unknowns.
+  std::vector<std::uint32_t> mark_;
+  std::atomic<std::uint32_t> marks_ = 0;  ///< Numbers that were given, each to one thread.
+  std::vector<Place> placed_;
+  std::vector<Index> sorted_, parted_;
+  const Index* all_ = nullptr;  ///< The order of all unknowns.
 };
 
 /// @param seen per unknown, the last front of this branch that has it as a row.
@@ -265,7 +288,7 @@ void link_to_parents(Dissection& dissection) {
         front.into_parent.push_back(row - parent.begin);
         continue;
       }
-      next = std::lower_bound(next, parent.rows.end(), row);
+      while (*next < row) ++next;
       front.into_parent.push_back(parent.own() + static_cast<Index>(next - parent.rows.begin()));
     }
   });

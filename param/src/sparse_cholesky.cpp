@@ -27,8 +27,22 @@ constexpr std::size_t k_parallel_solve_work = 8'000'000;
 /// charts, one after the other. Those of large charts are large arrays.
 constexpr std::size_t k_block_bytes = std::size_t{2} << 20, k_large_block_bytes = 8 * k_block_bytes;
 
-/// Columns of an update are cleared from the first row of a block of so many on: dense tiles write there.
+/// Columns are cleared from the first row of a block of so many on: dense tiles write there.
 constexpr std::size_t k_clear_columns = 4;
+
+/// Clears the lower half of columns.
+template <class Scalar>
+void clear_columns(Scalar* column, std::size_t rows, std::size_t columns) {
+  for (std::size_t j = 0; j < columns; ++j, column += rows)
+    std::fill(column + j - j % k_clear_columns, column + rows, Scalar(0));
+}
+
+/// Where a number lies in an ascending list that has it.
+Index place_in(const std::vector<Index>& list, Index number) {
+  const Index* first = list.data();
+  for (std::size_t size = list.size(); size > 1; size -= size / 2) first += first[size / 2] <= number ? size / 2 : 0;
+  return static_cast<Index>(first - list.data());
+}
 
 double conjugate(double x) { return x; }
 std::complex<double> conjugate(std::complex<double> x) { return std::conj(x); }
@@ -61,8 +75,7 @@ SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const
     for (const Index e : front.elements)
       for (Index i = elements_.first[e]; i < elements_.first[e + 1]; ++i) {
         const Index row = dissection_.position[elements_.vertices[i]];
-        const auto found = std::lower_bound(front.rows.begin(), front.rows.end(), row) - front.rows.begin();
-        place_[i] = row < front.end ? row - front.begin : front.own() + static_cast<Index>(found);
+        place_[i] = row < front.end ? row - front.begin : front.own() + place_in(front.rows, row);
       }
   });
   make_panels();
@@ -155,11 +168,9 @@ typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index 
 
   const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
   Scalar* panel = panel_[f];
-  std::fill_n(panel, rows * columns, Scalar(0));
+  clear_columns(panel, rows, columns);
   const Update update{stacks.own, width_ * front.rows.size()};
-  for (std::size_t j = 0; j < update.size; ++j)
-    std::fill(update.values + j * update.size + j - j % k_clear_columns, update.values + (j + 1) * update.size,
-              Scalar(0));
+  clear_columns(update.values, update.size, update.size);
   const auto assemble = [&]<std::size_t Width>() {
     add_elements<Width>(front, fill, stacks.element, panel, update);
     if (left.values) add_update<Width>(dissection_.fronts[front.left].into_parent, left, front, panel, update);

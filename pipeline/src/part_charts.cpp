@@ -2,7 +2,6 @@
 #include "part_charts.hpp"
 
 #include "papilla/cache/stage_cache.hpp"
-#include "papilla/meshing/cut_open.hpp"
 #include "papilla/param/grain_direction.hpp"
 
 namespace papilla::detail {
@@ -64,10 +63,11 @@ Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions
   for (ChartMemory** of_method : {&options.maillot.memory, &options.levy.memory, &options.lscm.memory,
                                   &options.reference.memory, &options.best.memory, &options.automatic.best.memory})
     *of_method = options.charts == ChartSource::automatic ? &memory.maps : nullptr;
+  if (!memory.opener) memory.opener.emplace(mesh);
   for (int i = 0;; ++i) {
-    Flattening flattening = map_charts(cut_open(mesh, charts), charts, options, choices);
+    Flattening flattening = map_charts(memory.opener->open(charts), charts, options, choices);
     if (flattening.notes.empty() || i == most_halvings || options.deadline.passed()) {
-      keep_cuts(mesh, charts.cuts, flattening.charts);
+      memory.opener->keep_cuts(charts.cuts, flattening.charts);
       return flattening;
     }
     std::vector<std::uint32_t> failed;

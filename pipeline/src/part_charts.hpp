@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "papilla/meshing/chart_cuts.hpp"
+#include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/param/chart_memory.hpp"
 #include "papilla/pipeline/unwrap_method.hpp"
@@ -17,6 +18,7 @@ inline constexpr double k_share_of_charts = 0.5;
 struct PartMemory {
   std::optional<ChartSegmenter> segmenter;  ///< Made when charts are not in the cache.
   std::optional<ChartHalver> halver;        ///< Made when a chart has no map.
+  std::optional<CutOpener> opener;          ///< Made when charts are mapped.
   ChartMemory maps;
 };
 

@@ -338,14 +338,15 @@ TEST(CutOpen, KeepsCutsThatLieWithinACharts) {
   halves.count = 2;  // below and above the middle
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     halves.of_triangle[t] = mesh.corner(t, 0).z + mesh.corner(t, 1).z + mesh.corner(t, 2).z > 3 ? 1 : 0;
-  keep_cuts(mesh, charts.cuts, halves);
+  const CutOpener opener(mesh);
+  opener.keep_cuts(charts.cuts, halves);
   EXPECT_EQ(halves.cuts, charts.cuts);
   EXPECT_NEAR(halves.seam_length_mm, plain_seam_length(mesh, halves), 1e-12);
   ChartSet sides = charts;
   sides.count = 2;  // parted along the cut, among others
   const Index h = charts.cuts.front();
   sides.of_triangle[h / 3] = 1;
-  keep_cuts(mesh, charts.cuts, sides);
+  opener.keep_cuts(charts.cuts, sides);
   EXPECT_EQ(sides.cuts.size(), charts.cuts.size() - 1);
 }
 
