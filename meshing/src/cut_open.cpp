@@ -32,7 +32,8 @@ std::vector<Index> CutOpener::opposite_within(const ChartSet& charts) const {
     const Index other = opposite_[h];
     opposite[h] = other != k_none && chart_of(h) == chart_of(other) ? other : k_none;
   }
-  for (const std::vector<Index>& edge : crowded_) link_within_labels(mesh_.triangles, edge, charts.of_triangle, opposite);
+  for (const std::vector<Index>& edge : crowded_)
+    link_within_labels(mesh_.triangles, edge, charts.of_triangle, opposite);
   return opposite;
 }
 

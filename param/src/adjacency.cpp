@@ -7,13 +7,13 @@
 #include <tuple>
 #include <vector>
 
+#include "chunks.hpp"
+
 namespace papilla::param_detail {
 namespace {
 
 /// Vertices with more corners than this are matched by sorting instead of scanning.
 constexpr Index k_hub_valence = 64;
-
-constexpr Index previous(Index corner) noexcept { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 /// A corner as its vertex sees it: the vertices after and before it in its triangle.
 struct StarCorner {
@@ -84,17 +84,20 @@ void link_hub_edges(std::vector<HubEdge>& edges, Adjacency& across) {
 Adjacency connect_triangles(const TriangleMesh& mesh) {
   Adjacency across(3 * mesh.triangles.size(), k_no_triangle);
   const Stars stars = stars_of(mesh);
+  const auto is_hub = [&](Index v) { return stars.valence(v) > k_hub_valence; };
+  // Each edge is linked from the smaller one of its vertices that are no hubs.
+  for_chunks(mesh.positions.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (auto a = static_cast<Index>(begin); a < end; ++a) {
+      if (is_hub(a)) continue;
+      for (const StarCorner& edge : stars.of(a))
+        if (a < edge.after || (a != edge.after && is_hub(edge.after))) link_edge(stars.of(a), edge, across);
+    }
+  });
   std::vector<HubEdge> hub_edges;
   for (Index a = 0; a < mesh.positions.size(); ++a) {
-    const bool hub = stars.valence(a) > k_hub_valence;
-    for (const StarCorner& edge : stars.of(a)) {
-      const Index b = edge.after;
-      const bool to_hub = stars.valence(b) > k_hub_valence;
-      if (hub && to_hub)
-        hub_edges.push_back({std::min(a, b), std::max(a, b), edge.corner, a < b});
-      else if (!hub && (a < b || (to_hub && a != b)))
-        link_edge(stars.of(a), edge, across);
-    }
+    if (!is_hub(a)) continue;
+    for (const auto& [b, before, corner] : stars.of(a))
+      if (is_hub(b)) hub_edges.push_back({std::min(a, b), std::max(a, b), corner, a < b});
   }
   link_hub_edges(hub_edges, across);
   return across;

@@ -9,6 +9,10 @@ namespace papilla::param_detail {
 
 inline constexpr Index k_no_triangle = ~Index{0};
 
+/// The next and the last corner (3 t + k) of the same triangle.
+constexpr Index next(Index corner) noexcept { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+constexpr Index previous(Index corner) noexcept { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+
 /// Which triangle lies across each edge. Entry 3 t + k belongs to the edge from corner k of triangle t to the next one.
 using Adjacency = std::vector<Index>;
 

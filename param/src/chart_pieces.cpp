@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "chart_pieces.hpp"
 
-#include <algorithm>
-#include "papilla/core/union_find.hpp"
-
 namespace papilla::param_detail {
+namespace {
+
+constexpr Index k_no_vertex = ~Index{0}, k_no_corner = ~Index{0};
+
+}  // namespace
+
 TrianglesOfCharts sort_by_chart(const std::vector<std::uint32_t>& chart_of_triangle, std::uint32_t count) {
   TrianglesOfCharts result;
   result.first.assign(std::size_t{count} + 2, 0);
@@ -30,33 +33,33 @@ double seam_length(const TriangleMesh& mesh, const Adjacency& across, const std:
 
 ChartSurface ChartCutter::cut(std::uint32_t chart, std::span<const Index> triangles) const {
   ChartSurface surface;
-  surface.triangles.resize(triangles.size());
+  surface.triangles.assign(triangles.size(), {k_no_vertex, k_no_vertex, k_no_vertex});
   surface.across.assign(triangles.size(), {k_no_triangle, k_no_triangle, k_no_triangle});
-  UnionFind corners_of_vertex(3 * triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const std::size_t t = triangles[i];
+  for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Index other = (*across_)[3 * t + k];
-      if (other == k_no_triangle || charts_->of_triangle[other] != chart) continue;
-      surface.across[i][k] = local_[other];
-      if (other < t) continue;
-      const Index start = mesh_->triangles[t][k];
-      const Triangle& corners = mesh_->triangles[other];
-      // The edge runs the other way in the neighbour: its corner after the end is the start.
-      for (std::size_t m = 0; m < 3; ++m) {
-        if (corners[(m + 1) % 3] != start || corners[m] != mesh_->triangles[t][(k + 1) % 3]) continue;
-        const auto base = 3 * local_[other];
-        corners_of_vertex.unite(static_cast<Index>(3 * i + k), static_cast<Index>(base + (m + 1) % 3));
-        corners_of_vertex.unite(static_cast<Index>(3 * i + (k + 1) % 3), static_cast<Index>(base + m));
-      }
+      const Index other = (*across_)[3 * std::size_t{triangles[i]} + k];
+      if (other != k_no_triangle && charts_->of_triangle[other] == chart) surface.across[i][k] = local_[other];
     }
-  }
-  Index vertices = 0;
-  const std::vector<Index> number = corners_of_vertex.labels(vertices);
-  for (Index c = 0; c < number.size(); ++c) {
-    if (number[c] == surface.positions.size())
-      surface.positions.push_back(mesh_->corner(triangles[c / 3], static_cast<int>(c % 3)));
-    surface.triangles[c / 3][c % 3] = number[c];
+  const auto vertex = [&](Index corner) { return mesh_->triangles[triangles[corner / 3]][corner % 3]; };
+  // The corner at the same vertex beyond the edge that leaves it, or arrives there. It runs the other way in the
+  // neighbour.
+  const auto beyond = [&](Index corner, bool leaving) {
+    const Index edge = leaving ? corner : previous(corner), other = surface.across[edge / 3][edge % 3];
+    if (other == k_no_triangle) return k_no_corner;
+    const Index from = vertex(edge), to = vertex(next(edge));
+    for (Index at = 3 * other; at < 3 * other + 3; ++at)
+      if (vertex(at) == to && vertex(next(at)) == from) return leaving ? next(at) : at;
+    return k_no_corner;
+  };
+  const auto number = [&](Index corner) -> Index& { return surface.triangles[corner / 3][corner % 3]; };
+  for (Index first = 0; first < 3 * triangles.size(); ++first) {
+    if (number(first) != k_no_vertex) continue;
+    const auto count = static_cast<Index>(surface.positions.size());
+    surface.positions.push_back(mesh_->positions[vertex(first)]);
+    number(first) = count;
+    for (const bool leaving : {true, false})
+      for (Index c = beyond(first, leaving); c != k_no_corner && number(c) == k_no_vertex; c = beyond(c, leaving))
+        number(c) = count;
   }
   return surface;
 }

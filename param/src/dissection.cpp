@@ -14,6 +14,7 @@
 #include <numeric>
 #include <utility>
 
+#include "chunks.hpp"
 #include "papilla/core/bounds.hpp"
 
 namespace papilla::param_detail {
@@ -46,17 +47,21 @@ Graph graph_of(const Elements& elements, Index count) {
       room[v + 1] += static_cast<Index>(elements.of(e).size()) - 1;
     }
   std::partial_sum(room.begin(), room.end(), room.begin());
-  // Vertices enter their neighbours' lists in ascending order, so that a second time comes right after the first.
   Graph graph;
   graph.neighbors.resize(room.back());
   room.pop_back();
   graph.begin = graph.end = std::move(room);
-  for (Index v = 0; v < count; ++v)
-    for (Index i = begin[v]; i < begin[v + 1]; ++i)
-      for (const Index w : elements.of(element_of[i])) {
-        Index& end = graph.end[w];
-        if (w != v && (end == graph.begin[w] || graph.neighbors[end - 1] != v)) graph.neighbors[end++] = v;
-      }
+  for_chunks(count, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (auto v = static_cast<Index>(first); v < last; ++v) {
+      Index* const list = graph.neighbors.data() + graph.begin[v];
+      Index* end = list;
+      for (Index i = begin[v]; i < begin[v + 1]; ++i)
+        for (const Index w : elements.of(element_of[i]))
+          if (w != v) *end++ = w;
+      std::sort(list, end);
+      graph.end[v] = graph.begin[v] + static_cast<Index>(std::unique(list, end) - list);
+    }
+  });
   return graph;
 }
 

@@ -5,6 +5,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -348,6 +349,45 @@ TEST(CutOpen, KeepsCutsThatLieWithinACharts) {
   sides.of_triangle[h / 3] = 1;
   opener.keep_cuts(charts.cuts, sides);
   EXPECT_EQ(sides.cuts.size(), charts.cuts.size() - 1);
+}
+
+TEST(CutOpen, WhereThreeTrianglesMeetTwoOfOneChartAreNeighbours) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 2, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  const CutOpener opener(mesh);
+  ChartSet two{{0, 0, 1}, 2, 0, {}};
+  opener.keep_cuts(std::array<Index, 1>{0}, two);
+  EXPECT_EQ(two.cuts, std::vector<Index>{0});
+  const TriangleMesh open = opener.open(two);
+  EXPECT_EQ(open.positions.size(), 7u);
+  EXPECT_EQ(open.triangles[0], mesh.triangles[0]);
+  EXPECT_EQ(open.triangles[1], (Triangle{5, 6, 3}));
+  EXPECT_EQ(open.triangles[2], mesh.triangles[2]);
+  ChartSet one{{0, 0, 0}, 1, 0, {}};
+  opener.keep_cuts(std::array<Index, 1>{0}, one);
+  EXPECT_TRUE(one.cuts.empty());
+  one.cuts = {0};
+  EXPECT_THROW(opener.open(one), InvalidInput);
+  EXPECT_THROW(opener.seam_length(one), InvalidInput);
+  EXPECT_THROW(opener.keep_cuts(std::array<Index, 1>{9}, one), InvalidInput);
+}
+
+TEST(CutOpen, OneOpenerServesAllChartsOfAMesh) {
+  const TriangleMesh mesh = tube(16, 4);
+  const CutOpener opener(mesh);
+  ChartSet charts{std::vector<std::uint32_t>(mesh.triangles.size(), 0), 1, 0, {}};
+  for (Index h = 0; h < 3 * mesh.triangles.size(); h += 7) {
+    charts.cuts = {h};
+    try {
+      const TriangleMesh open = opener.open(charts), anew = cut_open(mesh, charts);
+      EXPECT_EQ(open.triangles, anew.triangles);
+      EXPECT_EQ(open.positions.size(), anew.positions.size());
+      EXPECT_NEAR(opener.seam_length(charts), plain_seam_length(mesh, charts), 1e-12);
+    } catch (const InvalidInput&) {  // on a border
+      EXPECT_THROW(cut_open(mesh, charts), InvalidInput);
+    }
+  }
 }
 
 TEST(ChartCuts, OpenAndHalveChartsOfAnyOrigin) {
