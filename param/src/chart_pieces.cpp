@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "chart_pieces.hpp"
 
+#include "chunks.hpp"
+
 namespace papilla::param_detail {
 namespace {
 
@@ -35,11 +37,13 @@ ChartSurface ChartCutter::cut(std::uint32_t chart, std::span<const Index> triang
   ChartSurface surface;
   surface.triangles.assign(triangles.size(), {k_no_vertex, k_no_vertex, k_no_vertex});
   surface.across.assign(triangles.size(), {k_no_triangle, k_no_triangle, k_no_triangle});
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index other = (*across_)[3 * std::size_t{triangles[i]} + k];
-      if (other != k_no_triangle && charts_->of_triangle[other] == chart) surface.across[i][k] = local_[other];
-    }
+  for_chunks(triangles.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index other = (*across_)[3 * std::size_t{triangles[i]} + k];
+        if (other != k_no_triangle && charts_->of_triangle[other] == chart) surface.across[i][k] = local_[other];
+      }
+  });
   const auto vertex = [&](Index corner) { return mesh_->triangles[triangles[corner / 3]][corner % 3]; };
   // The corner at the same vertex beyond the edge that leaves it, or arrives there. It runs the other way in the
   // neighbour.

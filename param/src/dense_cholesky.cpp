@@ -118,10 +118,11 @@ inline __attribute__((always_inline)) std::size_t factor_any(Scalar* a, std::siz
 
 template <class Scalar>
 inline __attribute__((always_inline)) void subtract_any(const Scalar* panel, std::size_t rows, std::size_t columns,
-                                                        Scalar* c, std::size_t size) {
+                                                        Scalar* c, std::size_t size, std::size_t first,
+                                                        std::size_t last) {
   using T = Tile<Scalar>;
   const Scalar* p = panel + (rows - size);
-  for (std::size_t j = 0; j < size; j += T::width)
+  for (std::size_t j = first; j < last; j += T::width)
     for (std::size_t i = j; i < size; i += T::height)
       update_tile(p + i, p + j, rows, columns, c + j * size + i, size, size - i, size - j);
 }
@@ -170,13 +171,15 @@ PAPILLA_CPU_CLONES("arch=x86-64-v3")
 std::size_t factor_columns(Complex* a, std::size_t rows, std::size_t columns) { return factor_any(a, rows, columns); }
 
 PAPILLA_CPU_CLONES("arch=x86-64-v3")
-void subtract_square(const double* panel, std::size_t rows, std::size_t columns, double* c, std::size_t size) {
-  subtract_any(panel, rows, columns, c, size);
+void subtract_square(const double* panel, std::size_t rows, std::size_t columns, double* c, std::size_t size,
+                     std::size_t first, std::size_t last) {
+  subtract_any(panel, rows, columns, c, size, first, last);
 }
 
 PAPILLA_CPU_CLONES("arch=x86-64-v3")
-void subtract_square(const Complex* panel, std::size_t rows, std::size_t columns, Complex* c, std::size_t size) {
-  subtract_any(panel, rows, columns, c, size);
+void subtract_square(const Complex* panel, std::size_t rows, std::size_t columns, Complex* c, std::size_t size,
+                     std::size_t first, std::size_t last) {
+  subtract_any(panel, rows, columns, c, size, first, last);
 }
 
 PAPILLA_CPU_CLONES("arch=x86-64-v3")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sparse_cholesky.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@ constexpr Index k_leaf = 24;
 /// Branches with fewer multiplications are not worth a task of their own.
 constexpr std::size_t k_parallel_work = 500'000;
 constexpr std::size_t k_parallel_solve_work = 8'000'000;
+constexpr std::size_t k_parallel_square_work = 4'000'000;
 
 /// Panels are kept in blocks of about this size: of blocks that the system has to clear there are then none for small
 /// charts, one after the other. Those of large charts are large arrays.
@@ -181,8 +183,22 @@ typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index 
   else
     assemble.template operator()<2>();
   bad_pivots_[f] = factor_columns(panel, rows, columns);
-  subtract_square(panel, rows, columns, update.values, update.size);
+  subtract_from_update(panel, rows, columns, update);
   return update;
+}
+
+/// The squares of large fronts near the root, where few branches are left to run side by side, are shared by threads.
+template <class Scalar>
+void SparseCholesky<Scalar>::subtract_from_update(const Scalar* panel, std::size_t rows, std::size_t columns,
+                                                  const Update& update) {
+  const auto subtract = [&](std::size_t first, std::size_t last) {
+    subtract_square(panel, rows, columns, update.values, update.size, first, std::min(last, update.size));
+  };
+  if (update.size * update.size * columns < k_parallel_square_work) return subtract(0, update.size);
+  const std::size_t parts = (update.size + k_square_columns - 1) / k_square_columns;
+  oneapi::tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
+    subtract(part * k_square_columns, (part + 1) * k_square_columns);
+  });
 }
 
 template <class Scalar>

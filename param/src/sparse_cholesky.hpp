@@ -70,6 +70,7 @@ class SparseCholesky {
   template <std::size_t Width>
   static void add_update(const std::vector<Index>& into, const Update& from, const Front& front, Scalar* panel,
                          const Update& to);
+  static void subtract_from_update(const Scalar* panel, std::size_t rows, std::size_t columns, const Update& update);
 
   std::size_t width_, largest_element_ = 0;  ///< The latter in unknowns.
   Elements elements_;
