@@ -6,6 +6,7 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { launch, openUrl } from '../page/browser.mjs';
 import { allShown, dropFile } from './page.mjs';
 import { ask, end, start } from './studio.mjs';
@@ -14,7 +15,7 @@ const [papilla, , folder] = process.argv.slice(2);
 rmSync(folder, { recursive: true, force: true });
 const work = join(folder, 'work');
 mkdirSync(work, { recursive: true });
-const { encode } = createRequire(new URL('../page/browser.mjs', import.meta.url))('fast-png');
+const { encode } = await import(pathToFileURL(createRequire(new URL('../page/browser.mjs', import.meta.url)).resolve('fast-png')));
 
 /** Blots of one colour. */
 function blots(colour, side = 64) {
