@@ -58,7 +58,7 @@ std::vector<Index> opposite_halfedges(std::span<const Triangle> triangles, const
 std::vector<Index> opposite_within_labels(std::span<const Triangle> triangles, const EdgeTable& edges,
                                           std::span<const std::uint32_t> labels);
 
-/// Links the half-edges of one edge so. @param opposite gets them, and keeps those of labels with another number.
+/// Links the half-edges of one edge so. @param opposite is written where two are linked.
 void link_within_labels(std::span<const Triangle> triangles, std::span<const Index> edge,
                         std::span<const std::uint32_t> labels, std::span<Index> opposite);
 
