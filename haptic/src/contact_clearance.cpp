@@ -64,7 +64,28 @@ ContactTriangles::Face ContactTriangles::face(std::uint32_t place) const noexcep
   return touched;
 }
 
-ContactTriangles::Clearance ContactTriangles::clearance_of(const Face& face, Vec3 x) const noexcept {
+/// The clearance of a place straight above or below the face, at a height along its normal.
+[[gnu::always_inline]] inline ContactTriangles::Clearance ContactTriangles::clearance_above(
+    const Face& face, Vec2 weights, double height) const noexcept {
+  Clearance result;
+  result.d = height * face.normal;
+  result.distance = std::abs(height);
+  result.value = result.distance - contact_radius_m();
+  result.gradient = height < 0 ? -face.normal : face.normal;
+  if (!face.has_relief) return result;
+  if (height < 0) {
+    result.lift = face.top;
+    return result;
+  }
+  const ReliefSample relief = skinned_relief_at(face, weights);
+  result.lift = relief.height;
+  result.value -= relief.height;
+  result.gradient = result.gradient - face.vector_of(relief.slope);
+  return result;
+}
+
+/// The clearance of a place whose closest point lies on an edge or a corner.
+ContactTriangles::Clearance ContactTriangles::clearance_beside(const Face& face, Vec3 x) const noexcept {
   const Foot f = foot(face.t, x);
   Clearance result;
   result.d = x - f.point;
@@ -96,6 +117,13 @@ ContactTriangles::Clearance ContactTriangles::clearance_of(const Face& face, Vec
   if (f.on == Foot::On::edge && !above) slope = (dot(slope, f.edge) / dot(f.edge, f.edge)) * f.edge;
   if (f.on != Foot::On::corner || above) result.gradient = result.gradient - cosine * slope;
   return result;
+}
+
+ContactTriangles::Clearance ContactTriangles::clearance_of(const Face& face, Vec3 x) const noexcept {
+  const Vec3 from_a = x - face.t.a;
+  const Vec2 weights = face.weights_of(from_a);
+  const bool covered = face.inverse_det > 0 && weights.x >= 0 && weights.y >= 0 && weights.x + weights.y <= 1;
+  return covered ? clearance_above(face, weights, dot(face.normal, from_a)) : clearance_beside(face, x);
 }
 
 }  // namespace papilla

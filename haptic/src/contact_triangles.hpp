@@ -73,6 +73,24 @@ class ContactTriangles {
     Vec2 slope;        ///< Weights of b and c of its gradient ∇h in the triangle's plane.
     double steep = 0;  ///< |∇h|².
   };
+  /// A face with relief, and its clearance where a sweep asked for it last.
+  struct KnownFace {
+    std::uint32_t place = 0xffffffffU;  ///< In the clusters.
+    Face face{};
+    Vec3 x{std::numeric_limits<double>::quiet_NaN(), 0, 0};  ///< Relative to origin().
+    Clearance clearance{};
+  };
+  /// The faces that a probe swept last, from sweep to sweep: most begin where another ended.
+  class KnownFaces {
+   public:
+    /// The entry of a place; it has another face, or none, when that was not swept lately.
+    KnownFace& of(std::uint32_t place) noexcept { return faces_[place % faces_.size()]; }
+    /// Needed before use with another surface, and where a sweep does not begin near the end of another.
+    void clear() noexcept { faces_.fill({}); }
+
+   private:
+    std::array<KnownFace, 8> faces_;
+  };
   /// A candidate for the place where the proxy comes to rest.
   struct Rest {
     Vec3 place;
@@ -95,13 +113,15 @@ class ContactTriangles {
   double margin(Vec3 from, const Neighbourhood& near) const noexcept { return near.margin(from - origin_); }
 
   /// The same hit, found in the neighbourhood, and in the tree where the segment leaves the gathered ball. The same
-  /// bits on plain triangles; within the tolerance on relief, whose steps depend on where the segment ends.
-  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near) const noexcept;
+  /// bits on plain triangles; within the tolerance on relief, whose steps depend on where the segment ends and on what
+  /// is known.
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near, KnownFaces& known) const noexcept;
 
   /// The same, searched only from t = `seen`, before which there is no contact, to the end of the gathered ball.
   /// Without a hit `seen` becomes the end of the search, 1 at the end of the segment; it stays when from + seen·way is
   /// outside the ball.
-  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept;
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near, KnownFaces& known,
+                                double& seen) const noexcept;
 
   /// Where a probe drawn to `goal` from the side of `normal` would rest if the closest of the gathered triangles were
   /// the only one. Nothing with relief, and when no triangle allows a place within `radius_m` of the goal.
@@ -161,6 +181,8 @@ class ContactTriangles {
   static std::array<PackedNormal, 3> packed_corner_normals(const ContactMesh& mesh, std::size_t t);
   double relief_top(std::uint32_t place) const noexcept;
   ReliefSample skinned_relief_at(const Face& face, Vec2 weights) const noexcept;
+  Clearance clearance_above(const Face& face, Vec2 weights, double height) const noexcept;
+  Clearance clearance_beside(const Face& face, Vec3 x) const noexcept;
   static void move_approach(const Corners& t, Vec3 from, Vec3 way, double to, Approach& state) noexcept;
   bool advance(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
                Approach& state) const noexcept;
@@ -173,7 +195,8 @@ class ContactTriangles {
   void sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept;
   bool stays_clear(const FaceWay& over, const Clearance& now, double share) const noexcept;
-  WaySample find_level(const Face& face, Vec3 from, Vec3 way, double level, WaySample outside,
+  bool foretell(Vec3 x, KnownFace& known) const noexcept;
+  WaySample find_level(KnownFace& known, Vec3 from, Vec3 way, double level, WaySample outside,
                        const WaySample& inside) const noexcept;
   void update_nearest(std::uint32_t i, Vec3 x, const Neighbourhood& near, NearestSoFar& nearest) const noexcept;
   void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;

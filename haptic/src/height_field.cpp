@@ -11,38 +11,44 @@
 namespace papilla {
 namespace {
 
-/// Weights of Catmull and Rom (1974) for the samples at −1, 0, 1, 2, and their derivatives.
-[[gnu::always_inline]] inline void cubic_weights(double f, double* w, double* d) noexcept {
-  const double f2 = f * f, f3 = f2 * f;
-  w[0] = 0.5 * (-f3 + 2 * f2 - f);
-  w[1] = 0.5 * (3 * f3 - 5 * f2 + 2);
-  w[2] = 0.5 * (-3 * f3 + 4 * f2 + f);
-  w[3] = 0.5 * (f3 - f2);
-  d[0] = 0.5 * (-3 * f2 + 4 * f - 1);
-  d[1] = 0.5 * (9 * f2 - 10 * f);
-  d[2] = 0.5 * (-9 * f2 + 8 * f + 1);
-  d[3] = 0.5 * (3 * f2 - 2 * f);
+// Four numbers side by side; the compiler splits them where the processor has fewer. Functions that pass them on are
+// inlined, so that it doesn't matter how: the warning is of calls.
+#pragma GCC diagnostic ignored "-Wpsabi"
+typedef double Four __attribute__((vector_size(32)));
+typedef float FourFloats __attribute__((vector_size(16)));
+typedef std::int32_t FourInts __attribute__((vector_size(16)));
+
+/// The weights of the samples at −1, 0, 1, 2 as polynomials of the place f between 0 and 1: Σ by[k]·f^k.
+struct Basis {
+  Four by[4];
+};
+
+/// In the order of Interpolation: linear; Catmull and Rom (1974); the uniform cubic B-spline.
+constexpr Basis k_bases[] = {
+    {{{0, 1, 0, 0}, {0, -1, 1, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}},
+    {{{0, 1, 0, 0}, {-0.5, 0, 0.5, 0}, {1, -2.5, 2, -0.5}, {-0.5, 1.5, -1.5, 0.5}}},
+    {{{1 / 6., 4 / 6., 1 / 6., 0}, {-0.5, 0, 0.5, 0}, {0.5, -1, 0.5, 0}, {-1 / 6., 0.5, -0.5, 1 / 6.}}},
+};
+
+/// Weights along an axis, of the value and its derivative.
+struct Weights {
+  Four value, slope;
+};
+
+[[gnu::always_inline]] inline Weights weights_at(const Basis& basis, double f) noexcept {
+  const Four* const by = basis.by;
+  return {by[0] + f * (by[1] + f * (by[2] + f * by[3])), by[1] + f * (2 * by[2] + (3 * f) * by[3])};
 }
 
-/// The same of the uniform cubic B-spline.
-[[gnu::always_inline]] inline void bspline_weights(double f, double* w, double* d) noexcept {
-  constexpr double k_sixth = 1.0 / 6;
-  const double g = 1 - f, f2 = f * f, f3 = f2 * f;
-  w[0] = k_sixth * (g * g * g);
-  w[1] = k_sixth * (3 * f3 - 6 * f2 + 4);
-  w[2] = k_sixth * (-3 * f3 + 3 * f2 + 3 * f + 1);
-  w[3] = k_sixth * f3;
-  d[0] = -0.5 * g * g;
-  d[1] = 0.5 * (3 * f2 - 4 * f);
-  d[2] = 0.5 * (-3 * f2 + 2 * f + 1);
-  d[3] = 0.5 * f2;
+[[gnu::always_inline]] inline Four four_at(const std::uint16_t* first) noexcept {
+  const FourInts samples = {first[0], first[1], first[2], first[3]};
+  return __builtin_convertvector(__builtin_convertvector(samples, FourFloats), Four);  // As floats they are exact.
 }
 
-/// Σ weight[i] · value(i), in pairs: half as many additions wait for one another.
-template <std::size_t k_taps, class Value>
-[[gnu::always_inline]] inline double weighted_sum(const double* weight, const Value& value) noexcept {
-  if constexpr (k_taps == 2) return weight[0] * value(0) + weight[1] * value(1);
-  return (weight[0] * value(0) + weight[1] * value(1)) + (weight[2] * value(2) + weight[3] * value(3));
+/// In pairs: half as many additions wait for one another.
+[[gnu::always_inline]] inline double sum(const Four& v) noexcept { return (v[0] + v[1]) + (v[2] + v[3]); }
+[[gnu::always_inline]] inline Four weighted(const Four& weight, const Four* rows) noexcept {
+  return (weight[0] * rows[0] + weight[1] * rows[1]) + (weight[2] * rows[2] + weight[3] * rows[3]);
 }
 
 }  // namespace
@@ -78,68 +84,56 @@ std::uint16_t HeightField::texel(long x, long y) const noexcept {
   return samples_[static_cast<std::size_t>(row * width_ + column)];
 }
 
-/// Weighted sums over k_taps × k_taps samples from (x, y) on, columns first, for SIMD.
-template <std::size_t k_taps>
-[[gnu::always_inline]] inline HeightField::Weighted HeightField::weighted(long x, long y, const Weights& along_x,
-                                                                          const Weights& along_y) const noexcept {
-  // On repeating maps most footprints lie inside one copy.
-  const long left = options_.wrap[0] == Wrap::repeat ? wrapped(x, width_, Wrap::repeat) : x;
-  const long top = options_.wrap[1] == Wrap::repeat ? wrapped(y, height_, Wrap::repeat) : y;
-  const bool inside = left >= 0 && left + static_cast<long>(k_taps) <= width_;
-  double v[k_taps][k_taps];
-  for (std::size_t j = 0; j < k_taps; ++j) {
-    const std::uint16_t* const row =
-        &samples_[static_cast<std::size_t>(wrapped(top + static_cast<long>(j), height_, options_.wrap[1])) *
-                  static_cast<std::size_t>(width_)];
-    if (inside)
-      for (std::size_t i = 0; i < k_taps; ++i)
-        v[j][i] = static_cast<double>(static_cast<std::int32_t>(row[static_cast<std::size_t>(left) + i]));
-    else
-      for (std::size_t i = 0; i < k_taps; ++i)
-        v[j][i] = row[wrapped(left + static_cast<long>(i), width_, options_.wrap[0])];
-  }
-  double column[k_taps], column_by_y[k_taps];
-  for (std::size_t i = 0; i < k_taps; ++i) {
-    const auto below = [&](std::size_t j) noexcept { return v[j][i]; };
-    column[i] = weighted_sum<k_taps>(along_y.value, below);
-    column_by_y[i] = weighted_sum<k_taps>(along_y.slope, below);
-  }
-  const auto of_column = [&](std::size_t i) noexcept { return column[i]; };
-  return {weighted_sum<k_taps>(along_x.value, of_column), weighted_sum<k_taps>(along_x.slope, of_column),
-          weighted_sum<k_taps>(along_x.value, [&](std::size_t i) noexcept { return column_by_y[i]; })};
+/// A texel coordinate of an axis, in the first copy of a map that repeats. The reciprocal waits for nothing.
+[[gnu::always_inline]] inline double HeightField::in_first_copy(std::size_t axis, double at) const noexcept {
+  const double size = axis == 0 ? width_ : height_, copies = at * (1 / size);
+  return options_.wrap[axis] == Wrap::repeat ? at - std::floor(copies) * size : at;
 }
 
 Vec2 HeightField::texel_at(Vec2 uv) const noexcept {
-  const auto along = [&](std::size_t axis, int size) noexcept {
-    const double at = a_[axis][0] * uv.x + a_[axis][1] * uv.y + t_[axis];
-    return options_.wrap[axis] == Wrap::repeat ? at - std::floor(at / size) * size : at;
+  const auto along = [&](std::size_t axis) noexcept {
+    return in_first_copy(axis, a_[axis][0] * uv.x + a_[axis][1] * uv.y + t_[axis]);
   };
-  return {along(0, width_), along(1, height_)};
+  return {along(0), along(1)};
+}
+
+/// The samples around a place, and how far it lies beyond the second row and column.
+struct HeightField::Patch {
+  Four rows[4];
+  double beyond_x, beyond_y;
+};
+
+/// @pre no sample is beyond an edge of the map.
+[[gnu::always_inline]] inline HeightField::Patch HeightField::patch_inside(double x, double y, double x0,
+                                                                           double y0) const noexcept {
+  const std::uint16_t* const first = samples_.data() + (static_cast<long>(y0) - 1) * width_ + static_cast<long>(x0) - 1;
+  return {{four_at(first), four_at(first + width_), four_at(first + 2L * width_), four_at(first + 3L * width_)},
+          x - x0,
+          y - y0};
+}
+
+HeightField::Patch HeightField::patch_across_edge(Vec2 at) const noexcept {
+  const double x = texel_coordinate(at.x), y = texel_coordinate(at.y), x0 = std::floor(x), y0 = std::floor(y);
+  Patch patch{{}, x - x0, y - y0};
+  for (long j = 0; j < 4; ++j)
+    for (long i = 0; i < 4; ++i) patch.rows[j][i] = texel(static_cast<long>(x0) - 1 + i, static_cast<long>(y0) - 1 + j);
+  return patch;
 }
 
 PAPILLA_CPU_CLONES("avx2")
-HeightSample HeightField::sample_texels(Vec2 texel) const noexcept {
-  const double x = texel_coordinate(texel.x), y = texel_coordinate(texel.y);
-  const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
-  const long ix = static_cast<long>(x0), iy = static_cast<long>(y0);
-  Weighted sum;
-  if (options_.interpolation != Interpolation::bilinear) {
-    Weights along_x, along_y;
-    if (options_.interpolation == Interpolation::bicubic) {
-      cubic_weights(fx, along_x.value, along_x.slope);
-      cubic_weights(fy, along_y.value, along_y.slope);
-    } else {
-      bspline_weights(fx, along_x.value, along_x.slope);
-      bspline_weights(fy, along_y.value, along_y.slope);
-    }
-    sum = weighted<4>(ix - 1, iy - 1, along_x, along_y);
-  } else {
-    sum = weighted<2>(ix, iy, {{1 - fx, fx}, {-1, 1}}, {{1 - fy, fy}, {-1, 1}});
-  }
-  const double h = base_m_ + metres_per_step_ * sum.value;
+HeightSample HeightField::sample_texels(Vec2 at) const noexcept {
+  const double x = in_first_copy(0, at.x), y = in_first_copy(1, at.y), x0 = std::floor(x), y0 = std::floor(y);
+  const bool is_inside = x0 >= 1 && x0 < width_ - 2 && y0 >= 1 && y0 < height_ - 2;
+  const Patch patch = is_inside ? patch_inside(x, y, x0, y0) : patch_across_edge(at);
+  const Basis& basis = k_bases[static_cast<std::size_t>(options_.interpolation)];
+  const Weights along_x = weights_at(basis, patch.beyond_x), along_y = weights_at(basis, patch.beyond_y);
+  const Four column = weighted(along_y.value, patch.rows);
+  const double h = base_m_ + metres_per_step_ * sum(along_x.value * column);
   if (h < min_m_) return {min_m_, {}};
   if (h > max_m_) return {max_m_, {}};
-  return {h, {metres_per_step_ * sum.by_x, metres_per_step_ * sum.by_y}};
+  return {h,
+          {metres_per_step_ * sum(along_x.slope * column),
+           metres_per_step_ * sum(along_x.value * weighted(along_y.slope, patch.rows))}};
 }
 
 std::array<Vec2, 2> HeightField::texels_per_uv() const noexcept {

@@ -407,7 +407,10 @@ void Neighbourhood::bound_contacts(Vec3 from, Vec3 way, double contact, double d
     bounds.met[i] = Loops::first_bounds(prisms_[at], x.data(), w.data(), c + error[i], c + error[i] - d, last,
                                         bounds.earliest[i].data(), passing[i]);
   }
-  if (until < 1) return;
+  // A single triangle is tested at once.
+  int met = 0;
+  for (std::uint32_t i = 0; i < bounds.count; ++i) met += std::popcount(bounds.met[i]);
+  if (until < 1 || met < 2) return;
   for (std::uint32_t i = 0; i < bounds.count; ++i)
     if (bounds.met[i] != 0)
       bounds.met[i] = Loops::second_bounds(prisms_[slot(bounds.block[i])], passing[i], c + error[i], c + error[i] - d,

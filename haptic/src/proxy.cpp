@@ -30,6 +30,7 @@ constexpr double k_same_normal = 0.95;  // cosine: normal of a plane that is fou
 constexpr double k_same_way = 0.9;        // cosine between two steps that a secant may connect [b]
 constexpr double k_longest_stride = 4;    // of the planes' step, where the secant has no root ahead [b]
 constexpr double k_relief_stride = 1.25;  // of the step that friction leaves: 2 passes places that hold [b]
+constexpr double k_relief_skins = 1;      // skin: longer than that in any case; the skin rounds what is shorter [g]
 // Hops towards the nearest place.
 constexpr double k_least_hop = 8;         // τ: a nearer place is left to the descent [b]
 constexpr double k_far = 1.5;             // travel: longest hop; a proxy that moved farther slipped down a slope [b]
@@ -260,6 +261,7 @@ class Proxy::Descent {
   std::array<Vec3, k_steps> waypoints_{};  // At most one for each sweep.
   std::size_t waypoint_count_ = 0;
   Neighbourhood near_;
+  ContactTriangles::KnownFaces known_;
   double widest_m_ = 1;  // Radius that is likely to fit into near_.
 };
 
@@ -268,6 +270,7 @@ void Proxy::Descent::reset(Vec3 position) noexcept {
   state_.proxy = position;
   probe_ = position;
   near_.clear();
+  known_.clear();
   held_count_ = waypoint_count_ = 0;
   felt_place_ = k_no_place;
   slide_speed_ = 0;
@@ -395,7 +398,7 @@ void Proxy::Descent::stretch(Tick& tick, Aim& aim) const noexcept {
   Stride& stride = tick.stride;
   stride.stretched = false;
   const double left = std::abs(aim.left());
-  double farthest = k_relief_stride * left;
+  double farthest = std::max(k_relief_stride * left, k_relief_skins * surface_->skin_m());
   if (aim.at.count > 1 && aim.held == 0 && surface_->tallest_relief_m() == 0)
     farthest = left + std::sqrt(norm(tick.goal - tick.x) * surface_->tolerance_m());
   else if (!follows_relief(aim) || stride.turned)
@@ -509,7 +512,7 @@ bool Proxy::Descent::crease_holds(Tick& tick, std::uint32_t active) noexcept {
     const Vec3 normal = tick.planes.plane[i].normal, from = tick.start + tick.x;
     if (!(active >> i & 1U) || norm(tick.x - tick.planes.found_at[i]) <= drop || tick.next.sweeps == k_steps) continue;
     ++tick.next.sweeps;
-    const auto hit = surface_->sweep(from, from - drop * normal, near_);
+    const auto hit = surface_->sweep(from, from - drop * normal, near_, known_);
     if (!hit || dot(hit->normal, normal) < k_same_normal) return false;
   }
   return true;
@@ -613,7 +616,7 @@ std::optional<SweepHit> Proxy::Descent::sweep(Vec3 from, Vec3 way, double travel
     const double here = std::min(travel, norm(way));
     ensure_gathered(from + seen * way, k_needed_travels * here + surface_->skin_m(), here);
     const double before = seen;
-    const auto hit = surface_->sweep(from, from + way, near_, seen);
+    const auto hit = surface_->sweep(from, from + way, near_, known_, seen);
     if (hit || seen >= 1) return hit;
     if (!(seen > before)) break;
   }

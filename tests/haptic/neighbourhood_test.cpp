@@ -34,13 +34,14 @@ struct Near : ::testing::TestWithParam<double> {
     std::uniform_real_distribution<double> unit(-1, 1);
     const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
     auto near = std::make_unique<Neighbourhood>();
+    ContactTriangles::KnownFaces known;
     int hits = 0;
     for (int i = 0; i < 3000; ++i) {
       const Vec3 from = 0.02 * vec(), to = from + (i % 2 == 0 ? 0.1 : 1) * longest_m * vec();
       if (i % 10 == 0) {
         ASSERT_TRUE(surface.gather(from, gathered_m, *near));
       }
-      const auto expected = surface.sweep(from, to), found = surface.sweep(from, to, *near);
+      const auto expected = surface.sweep(from, to), found = surface.sweep(from, to, *near, known);
       ASSERT_EQ(expected.has_value(), found.has_value()) << i;
       if (!expected) continue;
       ++hits;
@@ -67,6 +68,7 @@ TEST_P(Near, SweepsInPiecesAsTheTreeDoesAtOnce) {
   std::uniform_real_distribution<double> unit(-0.02, 0.02);
   const auto place = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
   auto near = std::make_unique<Neighbourhood>();
+  ContactTriangles::KnownFaces known;
   int hits = 0, pieces = 0;
   for (int i = 0; i < 1000; ++i) {
     const Vec3 from = place(), to = place();
@@ -75,7 +77,7 @@ TEST_P(Near, SweepsInPiecesAsTheTreeDoesAtOnce) {
     while (!found && seen < 1) {
       ASSERT_TRUE(surface.gather(from + seen * (to - from), 3e-3, *near));
       const double before = seen;
-      found = surface.sweep(from, to, *near, seen);
+      found = surface.sweep(from, to, *near, known, seen);
       if (!found) {
         ASSERT_GT(seen, before);
       }

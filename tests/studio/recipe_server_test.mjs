@@ -15,6 +15,15 @@ writeFileSync(join(folder, 'secret.png'), 'not for the studio');
 const RECIPE = 'brick|scale=.5|cols=grey,<.7,.2,.1>';
 writeFileSync(join(work, 'm.json'), JSON.stringify({ materials: { wall: { texture: RECIPE, size_mm: [40, 40], show: 'picture' }, hard: { stiffness: 300 } }, assign: [{ part: 'plate', material: 'wall' }] }));
 
+// A document is there before its scene, and without one.
+const alone = await start(papilla, ['-m', 'm.json', '--cache', 'none'], { cwd: work });
+try {
+  const answer = await ask(alone.port, `/recipe-of?token=${alone.token}&material=wall`);
+  assert.deepEqual([answer.status, JSON.parse(answer.body).text], [200, RECIPE]);
+} finally {
+  await end(alone.child, 'SIGKILL');
+}
+
 const studio = await start(papilla, ['plate.obj', '-m', 'm.json', '--cache', 'none'], { cwd: work });
 try {
   const { port, token } = studio, good = `?token=${token}`, headers = { origin: `http://127.0.0.1:${port}` };

@@ -33,6 +33,10 @@ StudioDesk::StudioDesk(Setting setting)
                                load_problem_ = problem;
                              }});
   open_document();
+  try {
+    plan_ = plan_of(history_.document());
+  } catch (const InvalidInput&) {  // Said of the scene, which can't be shown with it.
+  }
   keeper_ = std::thread([this] { keep_documents(); });
   if (!files_.scene().empty()) loader_->load(files_.scene());
 }

@@ -106,14 +106,6 @@ class HeightField {
   Vec2 steepest_m() const noexcept { return steepest_m_; }
 
  private:
-  /// Interpolation weights along an axis, of the value and its derivative.
-  struct Weights {
-    double value[4], slope[4];
-  };
-  struct Weighted {
-    double value = 0, by_x = 0, by_y = 0;
-  };
-
   /// Bounds of the interpolated samples; slopes per texel.
   struct Extremes {
     double least, most;
@@ -133,8 +125,10 @@ class HeightField {
   }
   std::optional<Steps> steps(Vec2 metres_per_uv) const;
   std::vector<std::uint16_t> quantised(const std::vector<double>& heights_m) const;
-  template <std::size_t k_taps>
-  Weighted weighted(long x, long y, const Weights& along_x, const Weights& along_y) const noexcept;
+  struct Patch;
+  double in_first_copy(std::size_t axis, double at) const noexcept;
+  Patch patch_inside(double x, double y, double x0, double y0) const noexcept;
+  Patch patch_across_edge(Vec2 at) const noexcept;
   Extremes extremes() const;
 
   int width_, height_;

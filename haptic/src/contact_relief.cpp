@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "contact_sweep.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr int k_march_steps = 512;      // Most steps over a relief, whatever the number of its texels.
+constexpr double k_nearer = 0.5;        // Of the rest of the segment: next share tried by stays_clear().
+constexpr int k_level_steps = 24;       // Bound of the regula falsi.
+constexpr double k_above_level = 1e-4;  // Of the tolerance: accuracy of the level.
+
+}  // namespace
+
+/// The clearance at a parameter of the segment.
+struct ContactTriangles::WaySample {
+  double t, value;
+  Vec3 gradient;
+};
+
+/// A segment relative to a triangle with relief.
+struct ContactTriangles::FaceWay {
+  const Face& face;
+  Vec3 way;
+  double rise;  ///< Length along the normal.
+
+  FaceWay(const Face& f, Vec3 w) noexcept : face(f), way(w), rise(dot(f.normal, w)) {}
+
+  /// Length along the face.
+  double slide() const noexcept { return std::sqrt(std::max(0.0, dot(way, way) - rise * rise)); }
+  /// Number of texels that it crosses.
+  double texels() const noexcept {
+    const Vec2 weights = face.weights_of(way);
+    return norm(weights.x * face.texel_v + weights.y * face.texel_w);
+  }
+  /// Upper bound of the slope of the relief above the base.
+  double steepest() const noexcept {
+    if (face.height == nullptr) return 0;
+    const Vec2 steep = face.height->steepest_m();
+    return steep.x * norm(face.in_plane(face.texel_v.x, face.texel_w.x)) +
+           steep.y * norm(face.in_plane(face.texel_v.y, face.texel_w.y)) +
+           norm(face.in_plane(face.shift_v, face.shift_w));
+  }
+};
+
+/// Whether a share of the segment, from the sample `now` on, provably stays clear. The triangle lies behind the plane
+/// through the foot orthogonal to `now.d`, which bounds the distance from below; the foot moves no farther than the
+/// probe does along the face, which bounds the relief by its steepest slope; and the cosine is at most that of the
+/// highest point of the segment at that distance. The skin makes the relief no steeper.
+bool ContactTriangles::stays_clear(const FaceWay& over, const Clearance& now, double share) const noexcept {
+  const double nearest = now.distance + std::min(0.0, share * dot(now.d, over.way) / now.distance);
+  const double room = nearest - contact_radius_m();
+  if (!(room > 0)) return false;
+  const double highest = dot(over.face.normal, now.d) + std::max(0.0, share * over.rise);
+  const double cosine = std::clamp(highest / nearest, 0.0, 1.0);
+  return room > cosine * std::min(over.face.top, now.lift + share * over.steepest() * over.slide()) + tolerance_m();
+}
+
+/// Takes the clearance at x from the tangent of a place beside it. @returns false when none so near is known.
+bool ContactTriangles::foretell(Vec3 x, KnownFace& known) const noexcept {
+  const Vec3 off = x - known.x;
+  if (!(dot(off, off) <= tolerance_m() * tolerance_m())) return false;
+  known.x = x;
+  known.clearance.value += dot(known.clearance.gradient, off);
+  return true;
+}
+
+/// Marches over the relief, each time as far as stays_clear() proves or half a texel, and refines the contact in the
+/// step that enters.
+void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
+  std::optional<KnownFace> lone;
+  KnownFace& known = sweep.known != nullptr ? sweep.known->of(place) : lone.emplace();
+  if (known.place != place) known = {place, face(place)};
+  const Face& face = known.face;
+  const Clearance& now = known.clearance;
+  const Vec3 from = sweep.from, way = sweep.way;
+  const auto sample = [&](double t) noexcept {
+    known.x = from + t * way;
+    known.clearance = clearance_of(face, known.x);
+  };
+  const double t_max = sweep.until(), length = norm(way), reach = contact_radius_m() + face.top;
+  double t = 0;
+  if (!(now.distance <= reach && foretell(from, known))) {
+    Approach entry;
+    move_approach(face.t, from, way, 0, entry);
+    if (!advance(face.t, from, way, reach, reach - tolerance_m(), t_max, entry)) return;
+    t = entry.t;
+    sample(t);
+  }
+  const FaceWay over(face, way);
+  const double finest = std::max(0.5 / std::max(over.texels(), 0.5), 1.0 / k_march_steps);
+
+  // In a hollow every tangent enters at once: half the tolerance lets the probe move on.
+  const double level = -0.5 * tolerance_m(), close = k_above_level * tolerance_m();
+  WaySample outside{t, now.value, now.gradient};
+  double allowed = -tolerance_m();
+  bool has_guessed = false;
+  for (bool first = true;; first = false) {
+    const double descent = -dot(now.gradient, way);
+    // A probe that is too deep at the start may rise.
+    if (now.value < allowed && (!first || descent > 0)) break;
+    allowed = std::min(-tolerance_m(), now.value);
+    if (now.value >= level) outside = {t, now.value, now.gradient};
+    if (t >= t_max) return;
+    // Never past the base, behind which the clearance grows again.
+    const double base = std::max(0.5 * now.distance, tolerance_m());
+    double next = std::min(t_max, t + std::min(finest, base / length));
+    if (!(next > t)) break;  // The step is below the resolution of t.
+    if (now.value > tolerance_m()) {
+      const double rest = t_max - t;
+      if (stays_clear(over, now, rest)) return;
+      double clear = k_nearer * rest;
+      while (t + clear > next && !stays_clear(over, now, clear)) clear *= k_nearer;
+      next = std::max(next, t + clear);
+    }
+    // Most ways down end where the tangent of their start says.
+    const double above = now.value - level - close;
+    const bool guesses = !has_guessed && above > close && above < (next - t) * descent;
+    has_guessed = has_guessed || guesses;
+    t = guesses ? t + above / descent : next;
+    sample(t);
+    if (guesses && std::abs(now.value - level - close) <= close && (t_max - t) * descent > tolerance_m()) {
+      outside = {t, now.value, now.gradient};
+      break;
+    }
+  }
+  const WaySample there = find_level(known, from, way, level, outside, {t, now.value, now.gradient});
+  sweep.add({there.t, normalized(there.gradient), -there.value, source_of(place), material_of(place), place, {}},
+            false);
+}
+
+/// The sample between two where the clearance falls to the level, at most k_above_level above it: regula falsi with
+/// halved weights of the end that stays (Illinois) [Dowell and Jarratt, BIT 11, 1971].
+ContactTriangles::WaySample ContactTriangles::find_level(KnownFace& known, Vec3 from, Vec3 way, double level,
+                                                         WaySample outside, const WaySample& inside) const noexcept {
+  const double close = k_above_level * tolerance_m(), target = level + close;
+  double above = outside.value - target, below = inside.value - target, end = inside.t;
+  bool moved_outside = false, moved_inside = false;
+  for (int step = 0; step < k_level_steps && outside.value > target + close && end - outside.t > 1e-9; ++step) {
+    const double at = outside.t + (end - outside.t) * above / (above - below);
+    known.x = from + at * way;
+    known.clearance = clearance_of(known.face, known.x);
+    const WaySample now{at, known.clearance.value, known.clearance.gradient};
+    if (now.value >= level) {
+      if (moved_outside) below *= 0.5;
+      outside = now;
+      above = now.value - target;
+    } else {
+      if (moved_inside) above *= 0.5;
+      end = at;
+      below = now.value - target;
+    }
+    moved_outside = outside.t == at;
+    moved_inside = !moved_outside;
+  }
+  return outside;
+}
+
+}  // namespace papilla

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Sweeps over a relief that begin where others ended, as a proxy's do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "contact_shapes.hpp"
+#include "contact_triangles.hpp"
+
+namespace papilla::testing {
+namespace {
+
+constexpr double k_width = 6.4e-3, k_depth = 4e-3;
+constexpr int k_columns = 64, k_rows = 40;
+
+/// Turned about all axes, and away from the origin.
+Vec3 turned(Vec3 p) {
+  const Vec3 axis = normalized(Vec3{0.36, -0.48, 0.8});
+  const double c = std::cos(1.1), s = std::sin(1.1);
+  return c * p + s * cross(axis, p) + ((1 - c) * dot(axis, p)) * axis + Vec3{0.3, -0.2, 0.5};
+}
+
+HeightField oblong_waves() {
+  std::vector<std::uint16_t> samples;
+  for (int y = 0; y < k_rows; ++y)
+    for (int x = 0; x < k_columns; ++x) {
+      const double u = 2 * std::numbers::pi * x / k_columns, v = 2 * std::numbers::pi * y / k_rows;
+      const double waves = std::sin(4 * u + 3 * v) + std::sin(3 * v - 5 * u) + std::sin(7 * v);
+      samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * (waves + 3) / 6)));
+    }
+  HeightFieldOptions options;
+  options.scale_m = 8e-5;
+  options.offset_m = -2e-5;  // The base is below the plate.
+  options.uv_transform.scale = {1, 2};
+  return {k_columns, k_rows, samples, options};
+}
+
+/// Parameters: squares along x, radius of the probe.
+struct ReliefSweeps : ::testing::TestWithParam<std::pair<int, double>> {
+  ContactMesh mesh = plate(GetParam().first, 2, k_width, k_depth);
+  std::unique_ptr<ContactTriangles> surface;
+
+  void SetUp() override {
+    for (Vec3& p : mesh.positions) p = turned(p);
+    ContactMaterial material;
+    material.height = 0;
+    surface =
+        std::make_unique<ContactTriangles>(mesh, std::vector{material}, std::vector{oblong_waves()}, GetParam().second);
+  }
+
+  /// The least of all triangles nearby.
+  ContactTriangles::Clearance clearance(Vec3 x) const {
+    const TriangleClusters& clusters = surface->clusters();
+    ContactTriangles::Clearance least;
+    least.value = 1;
+    double reach = 2e-3;
+    clusters.within(x - surface->origin(), reach, [&](std::uint32_t cluster) {
+      for (std::uint32_t b = clusters.first_block(cluster);
+           b < clusters.first_block(cluster) + clusters.blocks_of(cluster); ++b)
+        for (std::uint32_t i = 0; i < clusters.triangles_in(b); ++i) {
+          const auto of_face =
+              surface->clearance_of(surface->face(b * TriangleClusters::k_block + i), x - surface->origin());
+          if (of_face.value < least.value) least = of_face;
+        }
+    });
+    return least;
+  }
+};
+
+TEST_P(ReliefSweeps, EndAtTheReliefWhereverTheOneBeforeEnded) {
+  constexpr int k_sweeps = 1600, k_chain = 20, k_looks = 10;
+  const double tolerance = surface->tolerance_m(), radius = GetParam().second;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto near = std::make_unique<Neighbourhood>();
+  ContactTriangles::KnownFaces known;
+  const Vec3 up = turned({0, 0, 1}) - turned({0, 0, 0});
+  Vec3 x, normal;
+  int hits = 0, grazes = 0;
+  for (int i = 0; i < k_sweeps; ++i) {
+    if (i % k_chain == 0) {
+      x = turned({k_width * (0.2 + 0.6 * unit(random)), k_depth * (0.4 + 0.2 * unit(random)), radius + 3e-4});
+      normal = up;
+      ASSERT_TRUE(surface->gather(x, 1e-3, *near));
+    }
+    const bool presses = i % k_chain == 0 || unit(random) < 0.5;
+    const Vec3 aside = normalized(cross(normal, {unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5}));
+    const double length = i % k_chain == 0 ? 4e-4 : std::pow(10, -6 + 2 * unit(random));
+    const Vec3 way = length * (presses ? -normal : aside);
+    const double start = clearance(x).value;
+    const auto hit = surface->sweep(x, x + way, *near, known);
+    const double end = hit ? hit->t : 1;
+    for (int k = 1; k < k_looks; ++k)
+      ASSERT_GT(clearance(x + (end * k / k_looks) * way).value, std::min(start, -tolerance) - 0.5 * tolerance) << i;
+    x = x + end * way;
+    if (!hit) continue;
+    ++(presses ? hits : grazes);
+    ASSERT_NEAR(clearance(x).value, 0, tolerance) << i;
+    const auto there = surface->clearance_of(surface->face(hit->place), x - surface->origin());
+    ASSERT_NEAR(there.value, -hit->penetration_m, 0.3 * tolerance) << i;
+    EXPECT_GT(dot(normalized(there.gradient), hit->normal), 1 - 1e-4) << i;
+    x = x + std::max(0.0, hit->penetration_m) * hit->normal;
+    normal = hit->normal;
+  }
+  EXPECT_GT(hits, 300);
+  EXPECT_GT(grazes, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Plates, ReliefSweeps,
+                         ::testing::Values(std::pair{1, 0.0}, std::pair{1, 4e-4}, std::pair{24, 0.0},
+                                           std::pair{24, 4e-4}));
+
+}  // namespace
+}  // namespace papilla::testing
