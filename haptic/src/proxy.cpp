@@ -30,7 +30,7 @@ constexpr double k_same_normal = 0.95;  // cosine: normal of a plane that is fou
 constexpr double k_same_way = 0.9;        // cosine between two steps that a secant may connect [b]
 constexpr double k_longest_stride = 4;    // of the planes' step, where the secant has no root ahead [b]
 constexpr double k_relief_stride = 1.25;  // of the step that friction leaves: 2 passes places that hold [b]
-constexpr double k_relief_skins = 1;      // skin: longer than that in any case; the skin rounds what is shorter [g]
+constexpr double k_relief_skins = 0.5;  // skin: not shorter than that; the skin rounds what is shorter than itself [b]
 // Hops towards the nearest place.
 constexpr double k_least_hop = 8;         // τ: a nearer place is left to the descent [b]
 constexpr double k_far = 1.5;             // travel: longest hop; a proxy that moved farther slipped down a slope [b]
