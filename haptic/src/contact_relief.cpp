@@ -20,42 +20,22 @@ struct ContactTriangles::WaySample {
   Vec3 gradient;
 };
 
-/// A segment relative to a triangle with relief.
-struct ContactTriangles::FaceWay {
-  const Face& face;
-  Vec3 way;
-  double rise;  ///< Length along the normal.
-
-  FaceWay(const Face& f, Vec3 w) noexcept : face(f), way(w), rise(dot(f.normal, w)) {}
-
-  /// Length along the face.
-  double slide() const noexcept { return std::sqrt(std::max(0.0, dot(way, way) - rise * rise)); }
-  /// Number of texels that it crosses.
-  double texels() const noexcept {
-    const Vec2 weights = face.weights_of(way);
-    return norm(weights.x * face.texel_v + weights.y * face.texel_w);
-  }
-  /// Upper bound of the slope of the relief above the base.
-  double steepest() const noexcept {
-    if (face.height == nullptr) return 0;
-    const Vec2 steep = face.height->steepest_m();
-    return steep.x * norm(face.in_plane(face.texel_v.x, face.texel_w.x)) +
-           steep.y * norm(face.in_plane(face.texel_v.y, face.texel_w.y)) +
-           norm(face.in_plane(face.shift_v, face.shift_w));
-  }
-};
-
-/// Whether a share of the segment, from the sample `now` on, provably stays clear. The triangle lies behind the plane
-/// through the foot orthogonal to `now.d`, which bounds the distance from below; the foot moves no farther than the
-/// probe does along the face, which bounds the relief by its steepest slope; and the cosine is at most that of the
-/// highest point of the segment at that distance. The skin makes the relief no steeper.
-bool ContactTriangles::stays_clear(const FaceWay& over, const Clearance& now, double share) const noexcept {
-  const double nearest = now.distance + std::min(0.0, share * dot(now.d, over.way) / now.distance);
+/// Whether a segment, from `a` to `b` relative to the place of the sample that is known, provably stays clear. The
+/// triangle lies behind the plane through the foot orthogonal to `d`, which bounds the distance from below; the foot
+/// moves no farther than the probe does along the face, which bounds the relief by its steepest slope; and the cosine
+/// is at most that of the highest point of the segment at that distance. All three are largest or least at an end. The
+/// skin makes the relief no steeper.
+bool ContactTriangles::stays_clear(const KnownFace& known, Vec3 a, Vec3 b) const noexcept {
+  const Clearance& now = known.clearance;
+  const Face& face = known.face;
+  const double nearest = now.distance + std::min({0.0, dot(now.d, a), dot(now.d, b)}) / now.distance;
   const double room = nearest - contact_radius_m();
   if (!(room > 0)) return false;
-  const double highest = dot(over.face.normal, now.d) + std::max(0.0, share * over.rise);
+  const double up_a = dot(face.normal, a), up_b = dot(face.normal, b);
+  const double highest = dot(face.normal, now.d) + std::max({0.0, up_a, up_b});
   const double cosine = std::clamp(highest / nearest, 0.0, 1.0);
-  return room > cosine * std::min(over.face.top, now.lift + share * over.steepest() * over.slide()) + tolerance_m();
+  const double slide = std::sqrt(std::max({0.0, dot(a, a) - up_a * up_a, dot(b, b) - up_b * up_b}));
+  return room > cosine * std::min(face.top, now.lift + face.steepest * slide) + tolerance_m();
 }
 
 /// Takes the clearance at x from the tangent of a place beside it. @returns false when none so near is known.
@@ -81,6 +61,8 @@ void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noe
     known.clearance = clearance_of(face, known.x);
   };
   const double t_max = sweep.until(), length = norm(way), reach = contact_radius_m() + face.top;
+  const Vec3 off = from - known.x;  // Not a number for a face that is new.
+  if (now.distance > 0 && stays_clear(known, off, off + t_max * way)) return;
   double t = 0;
   if (!(now.distance <= reach && foretell(from, known))) {
     Approach entry;
@@ -89,8 +71,9 @@ void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noe
     t = entry.t;
     sample(t);
   }
-  const FaceWay over(face, way);
-  const double finest = std::max(0.5 / std::max(over.texels(), 0.5), 1.0 / k_march_steps);
+  const Vec2 weights = face.weights_of(way);
+  const double texels = norm(weights.x * face.texel_v + weights.y * face.texel_w);
+  const double finest = std::max(0.5 / std::max(texels, 0.5), 1.0 / k_march_steps);
 
   // In a hollow every tangent enters at once: half the tolerance lets the probe move on.
   const double level = -0.5 * tolerance_m(), close = k_above_level * tolerance_m();
@@ -110,9 +93,9 @@ void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noe
     if (!(next > t)) break;  // The step is below the resolution of t.
     if (now.value > tolerance_m()) {
       const double rest = t_max - t;
-      if (stays_clear(over, now, rest)) return;
+      if (stays_clear(known, {}, rest * way)) return;
       double clear = k_nearer * rest;
-      while (t + clear > next && !stays_clear(over, now, clear)) clear *= k_nearer;
+      while (t + clear > next && !stays_clear(known, {}, clear * way)) clear *= k_nearer;
       next = std::max(next, t + clear);
     }
     // Most ways down end where the tangent of their start says.

@@ -56,6 +56,7 @@ class ContactTriangles {
     Vec2 texel, texel_v, texel_w;                ///< Texel coordinates at a, and their derivatives by v and w.
     double shift = 0, shift_v = 0, shift_w = 0;  ///< The same of the base's offset.
     double top = 0;                              ///< Upper bound of the relief above the base.
+    double steepest = 0;                         ///< Upper bound of its slope.
 
     /// Weights of b and c of the vector in the triangle's plane whose products with ab and ac are given; zero for a
     /// needle.
@@ -89,7 +90,7 @@ class ContactTriangles {
     void clear() noexcept { faces_.fill({}); }
 
    private:
-    std::array<KnownFace, 8> faces_;
+    std::array<KnownFace, 64> faces_;
   };
   /// A candidate for the place where the proxy comes to rest.
   struct Rest {
@@ -172,7 +173,6 @@ class ContactTriangles {
   static constexpr std::uint16_t k_relief_bit = 0x8000;
   struct WaySample;
   struct Sweep;
-  struct FaceWay;
   struct NearestSoFar;
 
   std::uint16_t packed_material(std::uint32_t place) const noexcept { return material_[clusters_.slot(place)]; }
@@ -194,7 +194,7 @@ class ContactTriangles {
   void sweep_triangle(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept;
-  bool stays_clear(const FaceWay& over, const Clearance& now, double share) const noexcept;
+  bool stays_clear(const KnownFace& known, Vec3 a, Vec3 b) const noexcept;
   bool foretell(Vec3 x, KnownFace& known) const noexcept;
   WaySample find_level(KnownFace& known, Vec3 from, Vec3 way, double level, WaySample outside,
                        const WaySample& inside) const noexcept;
