@@ -14,6 +14,7 @@ namespace papilla::testing {
 namespace {
 
 constexpr double k_width = 6.4e-3, k_depth = 4e-3;
+constexpr double k_base_below = 2e-5;  // Of the relief, below the plate.
 constexpr int k_columns = 64, k_rows = 40;
 
 /// Turned about all axes, and away from the origin.
@@ -33,7 +34,7 @@ HeightField oblong_waves() {
     }
   HeightFieldOptions options;
   options.scale_m = 8e-5;
-  options.offset_m = -2e-5;  // The base is below the plate.
+  options.offset_m = -k_base_below;
   options.uv_transform.scale = {1, 2};
   return {k_columns, k_rows, samples, options};
 }
@@ -109,9 +110,54 @@ TEST_P(ReliefSweeps, EndAtTheReliefWhereverTheOneBeforeEnded) {
   EXPECT_GT(grazes, 100);
 }
 
+TEST_P(ReliefSweeps, TheBackOfASheetHasNoRelief) {
+  const Vec3 below = turned({0.4 * k_width, 0.45 * k_depth, -2e-3});
+  EXPECT_NEAR(clearance(below).value, 2e-3 - k_base_below - surface->contact_radius_m(), 1e-9);
+}
+
+/// Beside the rim y = 0 the closest point moves along it alone.
+TEST_P(ReliefSweeps, BesideARimTheClearanceFallsAsTheReliefAlongItRises) {
+  const auto value = [&](double x) { return clearance(turned({x, -3e-4, 9e-4})); };
+  const Vec3 along = turned({1, 0, 0}) - turned({0, 0, 0});
+  constexpr double k_step = 1e-6;
+  int steep = 0;
+  for (double x = 0.31 * k_width; x < 0.7 * k_width; x += 0.037 * k_width) {
+    const double slope = (value(x + k_step).value - value(x - k_step).value) / (2 * k_step);
+    EXPECT_NEAR(dot(value(x).gradient, along), slope, 0.03) << x;
+    steep += std::abs(slope) > 0.1;
+  }
+  EXPECT_GE(steep, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Plates, ReliefSweeps,
                          ::testing::Values(std::pair{1, 0.0}, std::pair{1, 4e-4}, std::pair{24, 0.0},
                                            std::pair{24, 4e-4}));
+
+/// On a ramp of slope m the skin lies orthogonally to it: it is touched √(1 + m²) skins above.
+TEST(ContactRelief, TheSkinIsAsThickOnSlopes) {
+  std::vector<std::uint16_t> samples;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < k_columns; ++x)
+      samples.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * x / (k_columns - 1))));
+  HeightFieldOptions options;
+  options.scale_m = k_width * (k_columns - 1) / k_columns;  // From the centre of the first texel to that of the last.
+  ContactMaterial material;
+  material.height = 0;
+  const ContactTriangles surface(plate(1, 1, k_width, k_depth), {material},
+                                 {HeightField(k_columns, 3, samples, options)}, 0);
+  const double skin = surface.skin_m(), first = 0.5 * k_width / k_columns, z = 8e-3;
+  for (const double x : {0.3, 0.44, 0.61}) {
+    const Vec3 above = Vec3{x * k_width, 0.2 * k_depth, z} - surface.origin();  // Of the triangle below the diagonal.
+    const double lift = x * k_width - first + (std::sqrt(2.0) - 1) * skin;
+    ContactTriangles::Clearance below;
+    below.distance = 1;
+    for (const std::uint32_t place : {0U, 1U}) {
+      const auto of_face = surface.clearance_of(surface.face(place), above);
+      if (of_face.distance < below.distance) below = of_face;
+    }
+    EXPECT_NEAR(below.value, z - skin - lift, 2e-7) << x;
+  }
+}
 
 }  // namespace
 }  // namespace papilla::testing

@@ -272,6 +272,23 @@ TEST(Proxy, CornerHoldsWithThreeConstraints) {
   EXPECT_NEAR(norm(proxy.state().proxy - Vec3{s, s, s}), 0, surface.tolerance_m());
 }
 
+/// Three walls at angles of their own: the proxy rests where their skins meet.
+TEST(Proxy, ALeaningCornerHoldsWithThreeConstraints) {
+  const Vec3 edges[] = {0.1 * Vec3{1, 0.1, 0}, 0.1 * Vec3{0.3, 1, -0.1}, 0.1 * Vec3{0.2, 0.4, 1}};
+  ContactMesh corner;
+  corner.positions = {{}, edges[0], edges[1], edges[2]};
+  corner.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
+  const ContactSurface surface(corner, {spring(500)}, {}, 0);
+  Proxy proxy(surface);
+  proxy.reset(0.1 * (edges[0] + edges[1] + edges[2]));
+  const Vec3 normals[] = {normalized(cross(edges[0], edges[1])), normalized(cross(edges[1], edges[2])),
+                          normalized(cross(edges[2], edges[0]))};
+  proxy.update(-0.002 * normals[0] - 0.003 * normals[1] - 0.004 * normals[2], k_tick);
+  const ProxyState& state = proxy.update(-0.0025 * normals[0] - 0.003 * normals[1] - 0.0035 * normals[2], k_tick);
+  EXPECT_EQ(state.constraints, 3);
+  for (const Vec3& normal : normals) EXPECT_NEAR(dot(normal, state.proxy), surface.skin_m(), surface.tolerance_m());
+}
+
 class Speed : public ::testing::TestWithParam<double> {};
 
 TEST_P(Speed, NothingPassesAThinPlate) {
