@@ -283,10 +283,12 @@ TEST(Proxy, ALeaningCornerHoldsWithThreeConstraints) {
   proxy.reset(0.1 * (edges[0] + edges[1] + edges[2]));
   const Vec3 normals[] = {normalized(cross(edges[0], edges[1])), normalized(cross(edges[1], edges[2])),
                           normalized(cross(edges[2], edges[0]))};
-  proxy.update(-0.002 * normals[0] - 0.003 * normals[1] - 0.004 * normals[2], k_tick);
-  const ProxyState& state = proxy.update(-0.0025 * normals[0] - 0.003 * normals[1] - 0.0035 * normals[2], k_tick);
+  const Vec3 probe = -0.002 * normals[0] - 0.003 * normals[1] - 0.004 * normals[2];
+  const ProxyState& state = proxy.update(probe, k_tick);
   EXPECT_EQ(state.constraints, 3);
   for (const Vec3& normal : normals) EXPECT_NEAR(dot(normal, state.proxy), surface.skin_m(), surface.tolerance_m());
+  EXPECT_NEAR(state.load_m, norm(state.proxy - probe) - surface.skin_m(), surface.tolerance_m());
+  EXPECT_LT(norm(state.normal - normalized(state.proxy - probe)), 1e-3);
 }
 
 class Speed : public ::testing::TestWithParam<double> {};
