@@ -38,13 +38,12 @@ bool ContactTriangles::stays_clear(const KnownFace& known, Vec3 a, Vec3 b) const
   return room > cosine * std::min(face.top, now.lift + face.steepest * slide) + tolerance_m();
 }
 
-/// Takes the clearance at x from the tangent of a place beside it. @returns false when none so near is known.
-bool ContactTriangles::foretell(Vec3 x, KnownFace& known) const noexcept {
-  const Vec3 off = x - known.x;
-  if (!(dot(off, off) <= tolerance_m() * tolerance_m())) return false;
-  known.x = x;
-  known.clearance.value += dot(known.clearance.gradient, off);
-  return true;
+/// The value of the clearance at x from the tangent of the place beside it that is known; nothing when that is farther
+/// than the tolerance.
+std::optional<double> ContactTriangles::foretold(const KnownFace& known, Vec3 x) const noexcept {
+  const Vec3 off = x - known.x;  // Not a number for a face that is new.
+  if (!(dot(off, off) <= tolerance_m() * tolerance_m())) return std::nullopt;
+  return known.clearance.value + dot(known.clearance.gradient, off);
 }
 
 /// Marches over the relief, each time as far as stays_clear() proves or half a texel, and refines the contact in the
@@ -54,22 +53,20 @@ void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noe
   KnownFace& known = sweep.known != nullptr ? sweep.known->of(place) : lone.emplace();
   if (known.place != place) known = {place, face(place)};
   const Face& face = known.face;
-  const Clearance& now = known.clearance;
   const Vec3 from = sweep.from, way = sweep.way;
-  const auto sample = [&](double t) noexcept {
-    known.x = from + t * way;
-    known.clearance = clearance_of(face, known.x);
-  };
   const double t_max = sweep.until(), length = norm(way), reach = contact_radius_m() + face.top;
-  const Vec3 off = from - known.x;  // Not a number for a face that is new.
-  if (now.distance > 0 && stays_clear(known, off, off + t_max * way)) return;
-  double t = 0;
-  if (!(now.distance <= reach && foretell(from, known))) {
+  const auto clear_from = [&](double t, double to) noexcept {
+    return stays_clear(known, from + t * way - known.x, from + to * way - known.x);
+  };
+  if (known.clearance.distance > 0 && clear_from(0, t_max)) return;
+  WaySample now{0, 0, known.clearance.gradient};
+  if (const auto value = foretold(known, from); value && known.clearance.distance <= reach) {
+    now.value = *value;
+  } else {
     Approach entry;
     move_approach(face.t, from, way, 0, entry);
     if (!advance(face.t, from, way, reach, reach - tolerance_m(), t_max, entry)) return;
-    t = entry.t;
-    sample(t);
+    now = sample(known, from, way, entry.t);
   }
   const Vec2 weights = face.weights_of(way);
   const double texels = norm(weights.x * face.texel_v + weights.y * face.texel_w);
@@ -77,7 +74,7 @@ void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noe
 
   // In a hollow every tangent enters at once: half the tolerance lets the probe move on.
   const double level = -0.5 * tolerance_m(), close = k_above_level * tolerance_m();
-  WaySample outside{t, now.value, now.gradient};
+  WaySample outside = now;
   double allowed = -tolerance_m();
   bool has_guessed = false;
   for (bool first = true;; first = false) {
@@ -85,33 +82,37 @@ void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noe
     // A probe that is too deep at the start may rise.
     if (now.value < allowed && (!first || descent > 0)) break;
     allowed = std::min(-tolerance_m(), now.value);
-    if (now.value >= level) outside = {t, now.value, now.gradient};
-    if (t >= t_max) return;
+    if (now.value >= level) outside = now;
+    if (now.t >= t_max) return;
     // Never past the base, behind which the clearance grows again.
-    const double base = std::max(0.5 * now.distance, tolerance_m());
-    double next = std::min(t_max, t + std::min(finest, base / length));
-    if (!(next > t)) break;  // The step is below the resolution of t.
+    const double base = std::max(0.5 * known.clearance.distance, tolerance_m());
+    double next = std::min(t_max, now.t + std::min(finest, base / length));
+    if (!(next > now.t)) break;  // The step is below the resolution of t.
     if (now.value > tolerance_m()) {
-      const double rest = t_max - t;
-      if (stays_clear(known, {}, rest * way)) return;
-      double clear = k_nearer * rest;
-      while (t + clear > next && !stays_clear(known, {}, clear * way)) clear *= k_nearer;
-      next = std::max(next, t + clear);
+      if (clear_from(now.t, t_max)) return;
+      double clear = k_nearer * (t_max - now.t);
+      while (now.t + clear > next && !clear_from(now.t, now.t + clear)) clear *= k_nearer;
+      next = std::max(next, now.t + clear);
     }
     // Most ways down end where the tangent of their start says.
     const double above = now.value - level - close;
-    const bool guesses = !has_guessed && above > close && above < (next - t) * descent;
+    const bool guesses = !has_guessed && above > close && above < (next - now.t) * descent;
     has_guessed = has_guessed || guesses;
-    t = guesses ? t + above / descent : next;
-    sample(t);
-    if (guesses && std::abs(now.value - level - close) <= close && (t_max - t) * descent > tolerance_m()) {
-      outside = {t, now.value, now.gradient};
+    now = sample(known, from, way, guesses ? now.t + above / descent : next);
+    if (guesses && std::abs(now.value - level - close) <= close && (t_max - now.t) * descent > tolerance_m()) {
+      outside = now;
       break;
     }
   }
-  const WaySample there = find_level(known, from, way, level, outside, {t, now.value, now.gradient});
+  const WaySample there = find_level(known, from, way, level, outside, now);
   sweep.add({there.t, normalized(there.gradient), -there.value, source_of(place), material_of(place), place, {}},
             false);
+}
+
+ContactTriangles::WaySample ContactTriangles::sample(KnownFace& known, Vec3 from, Vec3 way, double t) const noexcept {
+  known.x = from + t * way;
+  known.clearance = clearance_of(known.face, known.x);
+  return {t, known.clearance.value, known.clearance.gradient};
 }
 
 /// The sample between two where the clearance falls to the level, at most k_above_level above it: regula falsi with
@@ -123,9 +124,7 @@ ContactTriangles::WaySample ContactTriangles::find_level(KnownFace& known, Vec3 
   bool moved_outside = false, moved_inside = false;
   for (int step = 0; step < k_level_steps && outside.value > target + close && end - outside.t > 1e-9; ++step) {
     const double at = outside.t + (end - outside.t) * above / (above - below);
-    known.x = from + at * way;
-    known.clearance = clearance_of(known.face, known.x);
-    const WaySample now{at, known.clearance.value, known.clearance.gradient};
+    const WaySample now = sample(known, from, way, at);
     if (now.value >= level) {
       if (moved_outside) below *= 0.5;
       outside = now;

@@ -195,7 +195,8 @@ class ContactTriangles {
   void sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept;
   bool stays_clear(const KnownFace& known, Vec3 a, Vec3 b) const noexcept;
-  bool foretell(Vec3 x, KnownFace& known) const noexcept;
+  std::optional<double> foretold(const KnownFace& known, Vec3 x) const noexcept;
+  WaySample sample(KnownFace& known, Vec3 from, Vec3 way, double t) const noexcept;
   WaySample find_level(KnownFace& known, Vec3 from, Vec3 way, double level, WaySample outside,
                        const WaySample& inside) const noexcept;
   void update_nearest(std::uint32_t i, Vec3 x, const Neighbourhood& near, NearestSoFar& nearest) const noexcept;
