@@ -172,6 +172,7 @@ std::optional<SweepHit> ContactTriangles::sweep(Vec3 from, Vec3 to, Neighbourhoo
     seen = sweep.t_max;
     piece *= k_short_way;
   }
+  if (sweep.best) known.touched = sweep.best->place;
   return sweep.best;
 }
 
@@ -211,6 +212,14 @@ void ContactTriangles::sweep_prisms(Neighbourhood& near, double since, Sweep& sw
     if (bounds.count == Neighbourhood::k_together) test_blocks();
   }
   test_blocks();
+  // Of those with relief most bounds are the start: the one that was touched last shortens the segment for the others.
+  if (tallest_ > 0)
+    for (std::uint32_t k = 0; k < count; ++k)
+      if (open[k].place == sweep.known->touched) {
+        sweep_triangle(open[k].place, sweep);
+        open[k] = open[--count];
+        break;
+      }
   while (count > 0) {
     std::uint32_t next = 0;
     for (std::uint32_t k = 1; k < count; ++k)
