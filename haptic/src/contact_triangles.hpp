@@ -86,7 +86,7 @@ class ContactTriangles {
    public:
     /// The entry of a place; it has another face, or none, when that was not swept lately.
     KnownFace& of(std::uint32_t place) noexcept { return faces_[place % faces_.size()]; }
-    /// Needed before use with another surface, and where a sweep does not begin near the end of another.
+    /// Needed before use with another surface.
     void clear() noexcept { *this = {}; }
 
     std::uint32_t touched = 0xffffffffU;  ///< What a sweep met last: most often the next one does, too.
