@@ -49,13 +49,11 @@ ContactTriangles::Face ContactTriangles::face(std::uint32_t place) const noexcep
   face.shift_v = shift(1) - face.shift;
   face.shift_w = shift(2) - face.shift;
   face.top = relief_top(place);
-  if (face.height != nullptr) {
-    const Vec2 steep = face.height->steepest_m();
-    const Vec3 by_x = steep.x * face.in_plane(face.texel_v.x, face.texel_w.x),
-               by_y = steep.y * face.in_plane(face.texel_v.y, face.texel_w.y);
-    face.steepest = std::sqrt(dot(by_x, by_x) + dot(by_y, by_y) + 2 * std::abs(dot(by_x, by_y))) +
-                    norm(face.in_plane(face.shift_v, face.shift_w));
-  }
+  const Vec2 steep = face.height != nullptr ? face.height->steepest_m() : Vec2{};
+  const Vec3 by_x = steep.x * face.in_plane(face.texel_v.x, face.texel_w.x),
+             by_y = steep.y * face.in_plane(face.texel_v.y, face.texel_w.y);
+  face.steepest = std::sqrt(dot(by_x, by_x) + dot(by_y, by_y) + 2 * std::abs(dot(by_x, by_y))) +
+                  norm(face.in_plane(face.shift_v, face.shift_w));
   return face;
 }
 

@@ -212,7 +212,8 @@ void ContactTriangles::sweep_prisms(Neighbourhood& near, double since, Sweep& sw
     if (bounds.count == Neighbourhood::k_together) test_blocks();
   }
   test_blocks();
-  // Of those with relief most bounds are the start: the one that was touched last shortens the segment for the others.
+  // With relief most bounds are the start: whatever its own is, the triangle that was touched last comes first, for it
+  // most often shortens the segment for the others.
   if (tallest_ > 0)
     for (std::uint32_t k = 0; k < count; ++k)
       if (open[k].place == sweep.known->touched) {

@@ -21,6 +21,7 @@ struct LocalConstants {
 /// What ContactSurface holds and what the proxy sweeps against. Triangles are named by their place in the clusters.
 class ContactTriangles {
  public:
+  static constexpr std::uint32_t k_no_place = 0xffffffffU;
   /// A triangle relative to origin().
   struct Corners {
     Vec3 a, b, c;
@@ -76,7 +77,7 @@ class ContactTriangles {
   };
   /// A face with relief, and its clearance where a sweep asked for it last.
   struct KnownFace {
-    std::uint32_t place = 0xffffffffU;  ///< In the clusters.
+    std::uint32_t place = k_no_place;  ///< In the clusters.
     Face face{};
     Vec3 x{std::numeric_limits<double>::quiet_NaN(), 0, 0};  ///< Relative to origin().
     Clearance clearance{};
@@ -89,7 +90,7 @@ class ContactTriangles {
     /// Needed before use with another surface.
     void clear() noexcept { *this = {}; }
 
-    std::uint32_t touched = 0xffffffffU;  ///< What a sweep met last: most often the next one does, too.
+    std::uint32_t touched = k_no_place;  ///< What a sweep met last: most often the next one does, too.
 
    private:
     std::array<KnownFace, 64> faces_;

@@ -79,9 +79,10 @@ class Neighbourhood {
     std::array<Lanes, k_together> earliest;
   };
   /// Bounds the contacts with the triangles of the given blocks, which must have prisms: for no t in [since,
-  /// earliest[k]) is from + t·way nearer than `contact` to triangle k. earliest[k] is 2 when no t up to 1 is nearer
-  /// than `contact` − `deep`. The bits in `met` include every triangle with earliest[k] ≤ `until`. Several blocks are
-  /// taken at once because their dependency chains overlap.
+  /// earliest[k]) is from + t·way nearer than `contact` to triangle k. earliest[k] is 2 when it is shown that no t up
+  /// to 1 is nearer than `contact` − `deep`, which is looked into closely where several may be touched. The bits in
+  /// `met` include every triangle with earliest[k] ≤ `until`. Several blocks are taken at once because their dependency
+  /// chains overlap.
   void bound_contacts(Vec3 from, Vec3 way, double contact, double deep, double since, double until,
                       ContactBounds& bounds) const noexcept;
 

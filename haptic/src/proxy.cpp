@@ -49,7 +49,7 @@ constexpr int k_pieces = 3;               // gathers along one sweep, then the t
 constexpr double k_regrowth = 1.01;       // per tick: growth of the largest radius after more than fits [b]
 constexpr std::uint32_t k_sparse = 64;    // blocks, of 512: with fewer a radius twice as large is tried [b]
 
-constexpr std::uint32_t k_no_place = 0xffffffffU;
+constexpr std::uint32_t k_no_place = ContactTriangles::k_no_place;
 
 /// A half-space that the proxy must not leave: normal · x ≥ offset.
 struct HalfSpace {

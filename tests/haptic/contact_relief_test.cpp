@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 
 #include "contact_shapes.hpp"
@@ -25,18 +24,11 @@ Vec3 turned(Vec3 p) {
 }
 
 HeightField oblong_waves() {
-  std::vector<std::uint16_t> samples;
-  for (int y = 0; y < k_rows; ++y)
-    for (int x = 0; x < k_columns; ++x) {
-      const double u = 2 * std::numbers::pi * x / k_columns, v = 2 * std::numbers::pi * y / k_rows;
-      const double waves = std::sin(4 * u + 3 * v) + std::sin(3 * v - 5 * u) + std::sin(7 * v);
-      samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * (waves + 3) / 6)));
-    }
   HeightFieldOptions options;
   options.scale_m = 8e-5;
   options.offset_m = -k_base_below;
   options.uv_transform.scale = {1, 2};
-  return {k_columns, k_rows, samples, options};
+  return {k_columns, k_rows, wave_samples(k_columns, k_rows), options};
 }
 
 /// Parameters: squares along x, radius of the probe.
@@ -156,6 +148,26 @@ TEST(ContactRelief, TheSkinIsAsThickOnSlopes) {
       if (of_face.distance < below.distance) below = of_face;
     }
     EXPECT_NEAR(below.value, z - skin - lift, 2e-7) << x;
+  }
+}
+
+/// Beside a relief that lies below the mesh the base of plain triangles slants down to it, and what fills it up rises.
+TEST(ContactRelief, PlainTrianglesBesideALowerReliefAreNotPassed) {
+  constexpr double k_lowered = 1e-4;
+  ContactMesh mesh = plate(2, 1, k_width, k_depth);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    mesh.material.push_back(mesh.corner(t, 0).x + mesh.corner(t, 1).x + mesh.corner(t, 2).x > 1.5 * k_width ? 1 : 0);
+  std::vector<ContactMaterial> materials(2);
+  materials[0].height = 0;
+  HeightFieldOptions options;
+  options.offset_m = -k_lowered;
+  const ContactTriangles surface(mesh, materials, {HeightField(2, 2, {0, 0, 0, 0}, options)}, 0);
+  const double over = surface.skin_m() + 2e-5;
+  for (const double y : {0.2, 0.5, 0.7}) {
+    const Vec3 from{0.95 * k_width, y * k_depth, over}, to{0.6 * k_width, y * k_depth, over - 4e-5};
+    const auto hit = surface.sweep(from, to);
+    ASSERT_TRUE(hit) << y;
+    EXPECT_NEAR(over - 4e-5 * hit->t, surface.skin_m(), 1.1 * surface.tolerance_m()) << y;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "papilla/haptic/contact_mesh.hpp"
 
@@ -42,6 +43,18 @@ inline ContactMesh plate(int columns, int rows, double width, double depth) {
 inline double rough_relief(double x, double y) {
   return 0.0012 * std::sin(180 * x + 1) * std::sin(150 * y) + 0.0006 * std::sin(500 * x + 300 * y) +
          0.0004 * std::sin(410 * y - 620 * x) + 0.00005 * std::sin(3100 * x) * std::sin(2900 * y);
+}
+
+/// Samples of waves in three directions, around the whole picture in both.
+inline std::vector<std::uint16_t> wave_samples(int columns, int rows) {
+  std::vector<std::uint16_t> samples;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const double u = 2 * std::numbers::pi * x / columns, v = 2 * std::numbers::pi * y / rows;
+      const double waves = std::sin(4 * u + 3 * v) + std::sin(3 * v - 5 * u) + std::sin(7 * v);
+      samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * (waves + 3) / 6)));
+    }
+  return samples;
 }
 
 /// A sphere around the origin of 2·n·(n−1) triangles, front outside.

@@ -191,13 +191,7 @@ TEST(ContactSurface, SweepsOverReliefDoNotPassThroughIt) {
   constexpr int k_texels = 64, k_looks = 16;
   constexpr double k_size = 6.4e-3;
   std::mt19937 random(1);
-  std::vector<std::uint16_t> samples;
-  for (int y = 0; y < k_texels; ++y)
-    for (int x = 0; x < k_texels; ++x) {
-      const double u = 2 * std::numbers::pi * x / k_texels, v = 2 * std::numbers::pi * y / k_texels;
-      const double waves = std::sin(4 * u + 3 * v) + std::sin(3 * v - 5 * u) + std::sin(7 * v);
-      samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * (waves + 3) / 6)));
-    }
+  const std::vector<std::uint16_t> samples = testing::wave_samples(k_texels, k_texels);
   HeightFieldOptions options;
   options.scale_m = 2e-4;
   options.offset_m = -5e-5;  // The base is below the plate.

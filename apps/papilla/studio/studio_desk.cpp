@@ -35,7 +35,8 @@ StudioDesk::StudioDesk(Setting setting)
   open_document();
   try {
     plan_ = plan_of(history_.document());
-  } catch (const InvalidInput&) {  // Said of the scene, which can't be shown with it.
+  } catch (const Error& error) {
+    load_problem_ = error.what();
   }
   keeper_ = std::thread([this] { keep_documents(); });
   if (!files_.scene().empty()) loader_->load(files_.scene());

@@ -147,7 +147,7 @@ class Studio {
     this.showCommand();
     $('welcome').hidden = state.surfaces.length > 0 || state.loading;
     if (state.problem) this.say(state.problem, true);
-    if (state.load_problem && !state.loading) this.say(T.loadFailed(state.scene_file, state.load_problem), true);
+    if (state.load_problem && !state.loading) this.say(T.loadFailed(state.scene_file || state.file, state.load_problem), true);
     if (state.restored && !this.toldRestored) { this.toldRestored = true; this.say(T.restored); }
     this.materials.setDocument(state.document.materials);
     this.card.setDocument(state.document.materials);

@@ -42,7 +42,7 @@ struct HeightSample {
 /// Texel (x, y) of a w × h picture has its centre at uv = ((x+½)/w, (y+½)/h), row 0 on top, as glTF samples
 /// pictures. Bicubic values are clamped to the range of the samples and of the values halfway between them, so that
 /// min_m() and max_m() are bounds everywhere.
-/// sample() is noexcept, allocates nothing, and costs 4 (bilinear) or 16 reads. Where a uv gives a place in the picture
+/// sample() is noexcept, allocates nothing, and costs 16 reads. Where a uv gives a place in the picture
 /// that is not finite, it is read at the centre of the first column or row.
 class HeightField {
  public:
