@@ -51,20 +51,25 @@ std::optional<double> ContactTriangles::foretold(const KnownFace& known, Vec3 x)
 void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
   std::optional<KnownFace> lone;
   KnownFace& known = sweep.known != nullptr ? sweep.known->of(place) : lone.emplace();
-  if (known.place != place) known = {place, face(place)};
+  if (known.place != place) {
+    known = {place, face(place)};
+    known.room = room(place, known.face);
+  }
   const Face& face = known.face;
   const Vec3 from = sweep.from, way = sweep.way;
-  const double t_max = sweep.until(), length = norm(way), reach = contact_radius_m() + face.top;
+  double begin = 0, t_max = sweep.until();
+  if (!limit_to_room(known, from, way, begin, t_max)) return;
+  const double length = norm(way), reach = contact_radius_m() + face.top;
   const auto clear_from = [&](double t, double to) noexcept {
     return stays_clear(known, from + t * way - known.x, from + to * way - known.x);
   };
-  if (known.clearance.distance > 0 && clear_from(0, t_max)) return;
-  WaySample now{0, 0, known.clearance.gradient};
-  if (const auto value = foretold(known, from); value && known.clearance.distance <= reach) {
+  if (known.clearance.distance > 0 && clear_from(begin, t_max)) return;
+  WaySample now{begin, 0, known.clearance.gradient};
+  if (const auto value = foretold(known, from + begin * way); value && known.clearance.distance <= reach) {
     now.value = *value;
   } else {
     Approach entry;
-    move_approach(face.t, from, way, 0, entry);
+    move_approach(face.t, from, way, begin, entry);
     if (!advance(face.t, from, way, reach, reach - tolerance_m(), t_max, entry)) return;
     now = sample(known, from, way, entry.t);
   }

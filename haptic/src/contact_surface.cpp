@@ -150,7 +150,9 @@ double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {
   double least = radius_m - contact_radius_m(), reach = radius_m;
   s.clusters().within(y, reach, [&](std::uint32_t cluster) noexcept {
     s.clusters().in_box(cluster, s.box_around(y, y, reach), [&](std::uint32_t place) noexcept {
-      least = std::min(least, s.clearance_of(s.face(place), y).value);
+      const ContactTriangles::Face face = s.face(place);
+      const double of_triangle = s.clearance_of(face, y).value;
+      if (of_triangle < least && !s.is_beyond(place, s.room(place, face), y)) least = of_triangle;
     });
     // Boxes include the relief: triangles farther than least + r + s from their box have more clearance than `least`.
     reach = std::min(reach, std::max(0.0, least + contact_radius_m()));
@@ -172,7 +174,7 @@ std::size_t ContactSurface::bytes() const noexcept { return triangles_->bytes();
 
 std::size_t ContactTriangles::bytes() const noexcept {
   return clusters_.bytes() + material_.size() * (sizeof(material_[0]) + sizeof(source_[0])) +
-         normals_.size() * sizeof(normals_[0]);
+         continued_.size() * (sizeof(continued_[0]) + sizeof(arch_[0])) + normals_.size() * sizeof(normals_[0]);
 }
 
 }  // namespace papilla

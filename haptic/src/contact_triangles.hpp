@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "neighbourhood.hpp"
 #include "papilla/haptic/contact_surface.hpp"
@@ -25,6 +26,8 @@ class ContactTriangles {
   /// A triangle relative to origin().
   struct Corners {
     Vec3 a, b, c;
+
+    std::array<Vec3, 3> all() const noexcept { return {a, b, c}; }
   };
   /// Closest point of a triangle.
   struct Foot {
@@ -75,10 +78,20 @@ class ContactTriangles {
     Vec2 slope;        ///< Weights of b and c of its gradient ∇h in the triangle's plane.
     double steep = 0;  ///< |∇h|².
   };
+  /// Where a triangle counts; see contact_room.cpp.
+  struct Room {
+    bool ends = false;            ///< Else it is everywhere.
+    double tilt = 0;              ///< Tangent of the largest angle to the triangles around.
+    std::array<Vec3, 3> out{};    ///< Across edge k, from corner k to the next.
+    std::array<double, 3> end{};  ///< out · x of a place on the edge.
+
+    bool clip(Vec3 from, Vec3 way, double slack, double& t_min, double& t_max) const noexcept;
+  };
   /// A face with relief, and its clearance where a sweep asked for it last.
   struct KnownFace {
     std::uint32_t place = k_no_place;  ///< In the clusters.
     Face face{};
+    Room room{};
     Vec3 x{std::numeric_limits<double>::quiet_NaN(), 0, 0};  ///< Relative to origin().
     Clearance clearance{};
   };
@@ -161,9 +174,17 @@ class ContactTriangles {
     return clusters_.relief(place, corner);
   }
   Corners corners(std::uint32_t place) const noexcept;
+  /// Zero for a triangle whose corners lie on a line.
+  Vec3 face_normal(std::uint32_t place) const noexcept {
+    const Corners t = corners(place);
+    return normalized(cross(t.b - t.a, t.c - t.a));
+  }
   Face face(std::uint32_t place) const noexcept;
   static Foot foot(const Corners& t, Vec3 x) noexcept;
   Clearance clearance_of(const Face& face, Vec3 x) const noexcept;
+  Room room(std::uint32_t place, const Face& face) const noexcept;
+  /// Whether x is left to the triangles around this one: one of them in which the relief goes on is nearer.
+  bool is_beyond(std::uint32_t place, const Room& room, Vec3 x) const noexcept;
   /// @param weights of b and c.
   static ReliefSample relief_at(const Face& face, Vec2 weights) noexcept;
   /// Box around everything within `reach` of the segment from a to b, rounded outwards.
@@ -173,12 +194,26 @@ class ContactTriangles {
   using Corner = TriangleClusters::Corner;
   /// A unit vector on the octahedron |x| + |y| + |z| = 1, unfolded to a square; 0.003 degrees.
   using PackedNormal = std::array<std::int16_t, 2>;
-  static constexpr std::uint16_t k_relief_bit = 0x8000;
+  static constexpr std::uint16_t k_relief_bit = 0x8000, k_no_arch = 0xffff;
+  static constexpr double k_tilts = 65534;
+  /// Places of the triangles across each edge in which the relief goes on; k_no_place where it does not.
+  using Continued = std::array<std::uint32_t, 3>;
   struct WaySample;
   struct Sweep;
   struct NearestSoFar;
 
   std::uint16_t packed_material(std::uint32_t place) const noexcept { return material_[clusters_.slot(place)]; }
+  const Continued& continued(std::uint32_t place) const noexcept { return continued_[clusters_.slot(place)]; }
+  /// The edge of a triangle behind which another one lies. @pre There is one.
+  std::uint32_t edge_towards(std::uint32_t place, std::uint32_t other) const noexcept {
+    const Continued& across = continued(place);
+    return across[0] == other ? 0 : across[1] == other ? 1 : 2;
+  }
+  void find_arches(std::span<const std::uint32_t> opposite, std::span<const std::uint32_t> place_at);
+  void continue_relief(const ContactMesh& mesh);
+  bool goes_on(std::uint32_t place, std::uint32_t edge, std::uint32_t other, std::uint32_t other_edge) const noexcept;
+  template <class Visit>
+  bool around(std::uint32_t place, std::uint32_t k, const Visit& visit) const noexcept;
   static PackedNormal packed(Vec3 normal) noexcept;
   static Vec3 unpacked(PackedNormal normal) noexcept;
   static std::array<PackedNormal, 3> packed_corner_normals(const ContactMesh& mesh, std::size_t t);
@@ -200,6 +235,8 @@ class ContactTriangles {
   bool stays_clear(const KnownFace& known, Vec3 a, Vec3 b) const noexcept;
   std::optional<double> foretold(const KnownFace& known, Vec3 x) const noexcept;
   WaySample sample(KnownFace& known, Vec3 from, Vec3 way, double t) const noexcept;
+  bool limit_to_room(const KnownFace& known, Vec3 from, Vec3 way, double& t_min, double& t_max) const noexcept;
+  double border(const KnownFace& known, Vec3 from, Vec3 way, double inside, double beyond) const noexcept;
   WaySample find_level(KnownFace& known, Vec3 from, Vec3 way, double level, WaySample outside,
                        const WaySample& inside) const noexcept;
   void update_nearest(std::uint32_t i, Vec3 x, const Neighbourhood& near, NearestSoFar& nearest) const noexcept;
@@ -211,6 +248,8 @@ class ContactTriangles {
   TriangleClusters clusters_;           // Vertices relative to origin_. The arrays below are indexed by its slots.
   LargeArray<std::uint16_t> material_;  // With k_relief_bit where there is relief.
   LargeArray<std::uint32_t> source_;    // Index in the ContactMesh.
+  LargeArray<Continued> continued_;     // This and the next are empty without relief.
+  LargeArray<std::uint16_t> arch_;      // Tilts times k_tilts; k_no_arch where the triangles around form no arch.
   LargeArray<std::array<PackedNormal, 3>> normals_;  // Of the corners; empty when nothing is shaded.
   Vec3 origin_, low_, high_;
   double radius_ = 0, skin_ = 0, tallest_ = 0;

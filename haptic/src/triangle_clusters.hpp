@@ -52,6 +52,8 @@ class TriangleClusters {
   std::size_t triangles() const noexcept { return corners_.size(); }
   std::size_t bytes() const noexcept;
 
+  std::uint32_t clusters() const noexcept { return static_cast<std::uint32_t>(clusters_.size()); }
+  std::uint32_t triangles_of(std::uint32_t cluster) const noexcept { return clusters_[cluster].count; }
   std::uint32_t slot(std::uint32_t place) const noexcept { return clusters_[place / k_most].first + place % k_most; }
   const Corner& corner(std::uint32_t place, std::size_t k) const noexcept { return vertices_[vertex(place, k)]; }
   const Relief& relief(std::uint32_t place, std::size_t k) const noexcept { return reliefs_[vertex(place, k)]; }
@@ -85,7 +87,7 @@ class TriangleClusters {
   static constexpr std::uint32_t k_block = 16;
   std::uint32_t first_block(std::uint32_t cluster) const noexcept { return cluster * k_blocks; }
   std::uint32_t blocks_of(std::uint32_t cluster) const noexcept {
-    return (clusters_[cluster].count + k_block - 1) / k_block;
+    return (triangles_of(cluster) + k_block - 1) / k_block;
   }
   std::uint32_t triangles_in(std::uint32_t block) const noexcept {
     return std::min(k_block, clusters_[block / k_blocks].count - block % k_blocks * k_block);

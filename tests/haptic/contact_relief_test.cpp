@@ -2,12 +2,18 @@
 // Sweeps over a relief that begin where others ended, as a proxy's do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numbers>
 #include <random>
+#include <string>
 
 #include "contact_shapes.hpp"
 #include "contact_triangles.hpp"
+#include "papilla/haptic/contact_surface.hpp"
 
 namespace papilla::testing {
 namespace {
@@ -54,9 +60,12 @@ struct ReliefSweeps : ::testing::TestWithParam<std::pair<int, double>> {
       for (std::uint32_t b = clusters.first_block(cluster);
            b < clusters.first_block(cluster) + clusters.blocks_of(cluster); ++b)
         for (std::uint32_t i = 0; i < clusters.triangles_in(b); ++i) {
-          const auto of_face =
-              surface->clearance_of(surface->face(b * TriangleClusters::k_block + i), x - surface->origin());
-          if (of_face.value < least.value) least = of_face;
+          const std::uint32_t place = b * TriangleClusters::k_block + i;
+          const auto face = surface->face(place);
+          const auto of_face = surface->clearance_of(face, x - surface->origin());
+          if (of_face.value < least.value &&
+              !surface->is_beyond(place, surface->room(place, face), x - surface->origin()))
+            least = of_face;
         }
     });
     return least;
@@ -124,6 +133,168 @@ TEST_P(ReliefSweeps, BesideARimTheClearanceFallsAsTheReliefAlongItRises) {
 INSTANTIATE_TEST_SUITE_P(Plates, ReliefSweeps,
                          ::testing::Values(std::pair{1, 0.0}, std::pair{1, 4e-4}, std::pair{24, 0.0},
                                            std::pair{24, 4e-4}));
+
+ContactSurface waves_on(const ContactMesh& mesh, double radius) {
+  ContactMaterial material;
+  material.height = 0;
+  return {mesh, {material}, {oblong_waves()}, radius};
+}
+
+/// Triangles around the middle of the plate, and a ring of others around them.
+ContactMesh hub(int triangles, double lift) {
+  ContactMesh mesh;
+  const auto add = [&](double x, double y, double z) {
+    mesh.positions.push_back({x, y, z});
+    return Vec2{x / k_width, y / k_depth};
+  };
+  std::vector<Vec2> uv = {add(0.5 * k_width, 0.5 * k_depth, lift)};
+  for (const double radius : {0.36, 0.48})
+    for (int i = 0; i < triangles; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + radius) / triangles;
+      uv.push_back(add((0.5 + radius * std::cos(angle)) * k_width, (0.5 + radius * std::sin(angle)) * k_depth,
+                       (1 - radius / 0.48) * lift));
+    }
+  const auto join = [&](int a, int b, int c) {
+    const std::array<std::uint32_t, 3> corners = {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                                  static_cast<std::uint32_t>(c)};
+    mesh.triangles.push_back(corners);
+    for (const std::uint32_t v : corners) mesh.corner_uv.push_back(uv[v]);
+  };
+  for (int i = 0; i < triangles; ++i) {
+    const int here = 1 + i, next = 1 + (i + 1) % triangles;
+    join(0, here, next);
+    join(here, here + triangles, next);
+    join(next, here + triangles, next + triangles);
+  }
+  return mesh;
+}
+
+/// So that the skin of all is the same.
+void add_far_triangle(ContactMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3 p : {Vec3{0.03, 0, 0}, Vec3{0.031, 0, 0}, Vec3{0.03, 0.001, 0}}) mesh.positions.push_back(p);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.corner_uv.resize(mesh.corner_uv.size() + 3);
+}
+
+/// A ball feels the relief below its middle, whatever triangles carry it.
+TEST(ContactRelief, OnAPlaneDoesNotDependOnTheTriangles) {
+  constexpr double k_radius = 1e-3;
+  std::vector<ContactMesh> meshes = {plate(5, 4, k_width, k_depth), plate(7, 11, k_width, k_depth),
+                                     plate(40, 9, k_width, k_depth), hub(7, 0), hub(24, 0)};
+  std::vector<ContactSurface> surfaces;
+  for (ContactMesh& mesh : meshes) {
+    add_far_triangle(mesh);
+    for (Vec3& p : mesh.positions) p = turned(p);
+    surfaces.push_back(waves_on(mesh, k_radius));
+  }
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double contact = surfaces[0].contact_radius_m();
+  double least = 1, most = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 x = turned({(0.38 + 0.24 * unit(random)) * k_width, (0.38 + 0.24 * unit(random)) * k_depth,
+                           contact + 1.2e-4 * unit(random)});
+    const double expected = surfaces[0].clearance(x, 3e-3);
+    least = std::min(least, expected);
+    most = std::max(most, expected);
+    for (std::size_t k = 1; k < surfaces.size(); ++k)
+      ASSERT_NEAR(surfaces[k].clearance(x, 3e-3), expected, 2e-7) << k << ' ' << i;
+  }
+  EXPECT_LT(least, -4e-5);
+  EXPECT_GT(most, 5e-5);
+}
+
+struct NamedMesh {
+  std::string name;
+  ContactMesh mesh;
+};
+
+ContactMesh grid(const std::function<double(double, double)>& height) {
+  return height_grid(13, 8, k_width, k_depth, height);
+}
+
+/// The squares of some columns and rows lie elsewhere on the map.
+ContactMesh with_patch(ContactMesh mesh, double columns_from, double columns_to) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 middle = (1.0 / 3) * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2));
+    if (middle.x < columns_from * k_width || middle.x > columns_to * k_width || middle.y > 0.5 * k_depth) continue;
+    for (std::size_t k = 0; k < 3; ++k) mesh.corner_uv[3 * t + k] = mesh.corner_uv[3 * t + k] + Vec2{0.37, 0.21};
+  }
+  return mesh;
+}
+
+/// Every triangle with vertices of its own.
+ContactMesh soup(const ContactMesh& of) {
+  ContactMesh mesh;
+  mesh.corner_uv = of.corner_uv;
+  for (std::size_t t = 0; t < of.triangles.size(); ++t) {
+    const auto first = static_cast<std::uint32_t>(3 * t);
+    for (std::size_t k = 0; k < 3; ++k) mesh.positions.push_back(of.corner(t, k));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+struct CurvedRelief : ::testing::TestWithParam<NamedMesh> {};
+
+/// Close to edges and corners, in steps that are short beside the tolerance.
+TEST_P(CurvedRelief, HasNoStepsBetweenTriangles) {
+  constexpr double k_radius = 8e-4, k_step = 5e-8, k_steepest = 0.5;
+  ContactMesh mesh = GetParam().mesh;
+  for (Vec3& p : mesh.positions) p = turned(p);
+  const ContactSurface surface = waves_on(mesh, k_radius);
+  const Vec3 up = turned({0, 0, 1}) - turned({0, 0, 0});
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> aside(0, 6e-5);
+  int near = 0;
+  double worst = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::size_t t = random() % mesh.triangles.size(), k = random() % 3;
+    const double along = i % 2 == 0 ? 0 : unit(random);
+    const Vec3 on = mesh.corner(t, k) + along * (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k));
+    Vec3 x = on + surface.contact_radius_m() * up + Vec3{aside(random), aside(random), aside(random)};
+    x = x + (8e-5 * unit(random) - surface.clearance(x, 4e-3)) * up;
+    const Vec3 step = k_step * normalized(cross(up, {unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5}));
+    double before = surface.clearance(x, 4e-3);
+    for (int s = 0; s < 400; ++s) {
+      x = x + step;
+      const double now = surface.clearance(x, 4e-3);
+      worst = std::max(worst, std::abs(now - before));
+      near += std::abs(now) < 1e-4;
+      before = now;
+    }
+  }
+  EXPECT_LT(worst, 0.55 * surface.tolerance_m() + (1 + k_steepest) * k_step);
+  EXPECT_GT(near, 40000);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, CurvedRelief,
+    ::testing::Values(
+        NamedMesh{"plane", grid([](double, double) { return 0.0; })},
+        NamedMesh{"cylinder", grid([](double x, double) { return 40 * x * (k_width - x); })},
+        NamedMesh{"hollow", grid([](double x, double y) { return -8 * x * (k_width - x) - 12 * y * (k_depth - y); })},
+        NamedMesh{"saddle", grid([](double x, double y) { return 14 * x * (k_width - x) - 20 * y * (k_depth - y); })},
+        NamedMesh{"slightly", grid([](double x, double y) { return 2 * x * (k_width - x) - 3 * y * (k_depth - y); })},
+        NamedMesh{"seam", with_patch(grid([](double x, double) { return 4 * x * (k_width - x); }), 0.4, 2)},
+        NamedMesh{"patch", with_patch(grid([](double, double) { return 0.0; }), 0.4, 0.7)},
+        NamedMesh{"soup", soup(grid([](double x, double y) { return 3 * x * (k_width - y); }))},
+        NamedMesh{"hub", hub(48, 2e-4)}, NamedMesh{"cone", hub(20, 9e-4)}, NamedMesh{"blunt", hub(11, 6e-5)}),
+    [](const auto& mesh) { return mesh.param.name; });
+
+/// A shared edge, in any order and with vertices of its own, is no rim: a ball beside it feels no neighbour.
+TEST(ContactRelief, SoupsAreFeltAsMeshes) {
+  const ContactMesh mesh = grid([](double, double) { return 0.0; });
+  const ContactSurface joined = waves_on(mesh, 1e-3), apart = waves_on(soup(mesh), 1e-3);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(0.3, 0.7);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 x{unit(random) * k_width, unit(random) * k_depth, joined.contact_radius_m() + 3e-5};
+    ASSERT_EQ(apart.clearance(x, 3e-3), joined.clearance(x, 3e-3)) << i;
+  }
+}
 
 /// On a ramp of slope m the skin lies orthogonally to it: it is touched √(1 + m²) skins above.
 TEST(ContactRelief, TheSkinIsAsThickOnSlopes) {

@@ -75,7 +75,7 @@ TEST(PlayerMemory, OfAPlainTriangleIsAtMost90Bytes) {
 TEST(PlayerMemory, OfATriangleWithReliefIsAtMost115Bytes) {
   const Taken of = taken(true, false);
   EXPECT_LE(of.loading, 82);
-  EXPECT_LE(of.surface, 33);
+  EXPECT_LE(of.surface, 46);
 }
 
 TEST(PlayerMemory, NormalsForShadingTake24BytesMore) {

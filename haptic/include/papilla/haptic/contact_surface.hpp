@@ -66,18 +66,24 @@ struct StimulusSample {
 ///     f_T(x) = |x − c| − (r + s) − h(c)·max(0, cos∠(n_T, x − c)),   c = closest point of T to x,
 /// is 0. h is the height of the relief above the base of T, dilated by r, with the skin on it along its normal. s is
 /// the skin, 20 µm (less in scenes below 20 mm, more above 10 m): it closes the gaps of CAD meshes and keeps distances
-/// away from 0; forces are computed without it. Free space is where every f_T ≥ 0. That needs no adjacency, no
+/// away from 0; forces are computed without it. Free space is where every f_T that counts is ≥ 0. That needs no
 /// watertight mesh and no edge rules, so slivers, duplicated vertices, gaps up to 2s and open sheets are ordinary
 /// input. Both sides of a triangle are solid; the relief is on the front, the back is the smooth base.
+///
+/// All triangles count, but one: a triangle with relief whose neighbours go on with the same relief, all around its
+/// three corners, in a plane or bent away from the front by a few degrees, does not count where one of them is nearer
+/// to x. On such ground a place is felt once, at its closest point, and what a probe feels does not depend on the
+/// edges: at the border both triangles have the same closest point. In hollows, at seams of the uv, at rims and at
+/// ridges every triangle counts, so that nothing has steps or holes.
 ///
 /// The base of a relief that reaches below the triangles (offset < 0) is the mesh moved inwards to the lowest height
 /// along the interpolated vertex normals, so that h ≥ 0. Where that would invert a triangle (a fillet tighter than the
 /// relief is deep) the offset is shortened and the valleys of the relief end at the base. Different heights on both
 /// sides of a uv seam meet in a fillet of the size of their difference, without a hole.
 ///
-/// Build: O(n log n), about 1 µs a triangle. Memory: 22 bytes a triangle, 30 with relief or maps, 12 more with shaded
-/// materials. Vertices are rounded to single precision around the centre of the scene (0.5 µm at 10 m). Queries are
-/// const, noexcept and allocate nothing; the same input gives the same bits.
+/// Build: O(n log n), about 1 µs a triangle. Memory: 22 bytes a triangle, 30 with maps, 45 with relief, 12 more with
+/// shaded materials. Vertices are rounded to single precision around the centre of the scene (0.5 µm at 10 m). Queries
+/// are const, noexcept and allocate nothing; the same input gives the same bits.
 class ContactSurface {
  public:
   /// Largest |x| + |y| + |z| of a probe: beyond it doubles do not resolve its depth.
@@ -124,7 +130,8 @@ class ContactSurface {
   /// same parameter, as of duplicates and at shared edges, count once; at most 16.
   int crossings(Vec3 from, Vec3 to) const noexcept;
 
-  /// min over T of f_T(x) within `radius_m` of x; radius_m − contact_radius_m() when no triangle is that near.
+  /// min over the T that count of f_T(x) within `radius_m` of x; radius_m − contact_radius_m() when no triangle is that
+  /// near.
   double clearance(Vec3 x, double radius_m) const noexcept;
 
   /// The largest value that a material has of a quantity: of its map, else its constant.
