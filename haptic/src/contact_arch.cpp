@@ -8,8 +8,8 @@
 namespace papilla {
 namespace {
 
-constexpr double k_seems_higher = 0.5;  // Of the tolerance: difference of a relief seen along the normals of two.
-constexpr double k_most_spread = 0.3;   // Radians between the normals.
+constexpr double k_highest_step = 0.5;  // Of the tolerance.
+constexpr double k_most_spread = 0.6;   // Radians between the normals.
 constexpr double k_hollow = 1e-3;       // Radians: a hollow by less moves the closest point by less than the tolerance.
 
 /// Tangent of the largest angle between two normals, from the angles to their mean.
@@ -24,6 +24,18 @@ double tilt_of(std::span<const Vec3> normals) noexcept {
   }
   const double angle = 2 * std::atan2(sine, cosine);
   return angle < k_most_spread ? std::tan(angle) : 1;
+}
+
+/// By how much of its height a relief may end in a step at a corner with these triangles around. A triangle leaves the
+/// places above the corner on one side of the plane that is orthogonal to an edge; there the two at the edge count. The
+/// relief of each seems as high as the cosine to its normal, and in the middle between these two another may be ahead.
+double step_of(std::span<const Vec3> normals) noexcept {
+  double step = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3 middle = normalized(normals[i] + normals[(i + 1) % normals.size()]);
+    for (const Vec3& other : normals) step = std::max(step, dot(other - normals[i], middle));
+  }
+  return step;
 }
 
 }  // namespace
@@ -52,8 +64,6 @@ void ContactTriangles::find_arches(std::span<const std::uint32_t> opposite, std:
       if (dot(turn, edge) > k_hollow * norm(edge)) flags[slot] |= static_cast<std::uint8_t>(1U << k);
     }
   }
-  const double cosine = std::max(1 - k_seems_higher * tolerance_m() / tallest_, std::cos(k_most_spread));
-  const double most = std::sqrt(1 - cosine * cosine) / cosine;
   std::array<std::size_t, k_most_around> fan;
   std::array<Vec3, k_most_around> fan_normals;
   for (std::uint32_t first = 0; first < opposite.size(); ++first) {
@@ -70,8 +80,10 @@ void ContactTriangles::find_arches(std::span<const std::uint32_t> opposite, std:
       edge = there - there % 3 + (there + 1) % 3;
       ends = edge == first;
     }
-    const double tilt = ends && !hollow ? tilt_of({fan_normals.data(), count}) : 1;
-    const auto code = tilt < most ? static_cast<std::uint16_t>(std::ceil(k_tilts * tilt)) : k_no_arch;
+    const std::span around(fan_normals.data(), count);
+    const bool goes_round = ends && !hollow && step_of(around) * tallest_ < k_highest_step * tolerance_m();
+    const double tilt = goes_round ? tilt_of(around) : 1;
+    const auto code = tilt < 1 ? static_cast<std::uint16_t>(std::ceil(k_tilts * tilt)) : k_no_arch;
     for (std::size_t i = 0; i < count; ++i) arch_[fan[i]] = std::max(arch_[fan[i]], code);
   }
 }

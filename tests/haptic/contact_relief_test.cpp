@@ -275,6 +275,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         NamedMesh{"plane", grid([](double, double) { return 0.0; })},
         NamedMesh{"cylinder", grid([](double x, double) { return 40 * x * (k_width - x); })},
+        NamedMesh{"steep", grid([](double x, double) { return 160 * x * (k_width - x); })},
+        NamedMesh{"dome", grid([](double x, double y) { return 60 * x * (k_width - x) + 90 * y * (k_depth - y); })},
+        NamedMesh{"oval", grid([](double x, double y) { return 9 * x * (k_width - x) + 140 * y * (k_depth - y); })},
         NamedMesh{"hollow", grid([](double x, double y) { return -8 * x * (k_width - x) - 12 * y * (k_depth - y); })},
         NamedMesh{"saddle", grid([](double x, double y) { return 14 * x * (k_width - x) - 20 * y * (k_depth - y); })},
         NamedMesh{"slightly", grid([](double x, double y) { return 2 * x * (k_width - x) - 3 * y * (k_depth - y); })},
