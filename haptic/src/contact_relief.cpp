@@ -51,10 +51,7 @@ std::optional<double> ContactTriangles::foretold(const KnownFace& known, Vec3 x)
 void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
   std::optional<KnownFace> lone;
   KnownFace& known = sweep.known != nullptr ? sweep.known->of(place) : lone.emplace();
-  if (known.place != place) {
-    known = {place, face(place)};
-    known.room = room(place, known.face);
-  }
+  if (known.place != place) known = known_face(place);
   const Face& face = known.face;
   const Vec3 from = sweep.from, way = sweep.way;
   double begin = 0, t_max = sweep.until();

@@ -16,6 +16,8 @@ constexpr double k_margin = 1e-3;    // Rounding must not make two triangles lea
 constexpr double k_sharp = 0.1;      // Wider borders are looked for,
 constexpr double k_border = 0.0625;  // as exactly as this.
 
+Vec3 orthogonal(Vec3 v, Vec3 to) noexcept { return v - (dot(v, to) / dot(to, to)) * to; }
+
 }  // namespace
 
 ContactTriangles::Room ContactTriangles::room(std::uint32_t place, const Face& face) const noexcept {
@@ -27,68 +29,93 @@ ContactTriangles::Room ContactTriangles::room(std::uint32_t place, const Face& f
   room.tilt = arch / k_tilts;
   const std::array<Vec3, 3> corner = face.t.all();
   for (std::size_t k = 0; k < 3; ++k) {
-    room.out[k] = normalized(cross(corner[(k + 1) % 3] - corner[k], face.normal));
+    const Vec3 edge = corner[(k + 1) % 3] - corner[k];
+    room.out[k] = normalized(cross(edge, face.normal));
     room.end[k] = dot(room.out[k], corner[k]) + k_margin * tolerance_m();
+    room.beyond[k] = orthogonal(opposite(continued(place)[k], place) - corner[k], edge);
   }
   return room;
 }
 
-bool ContactTriangles::is_beyond(std::uint32_t place, const Room& room, Vec3 x) const noexcept {
+ContactTriangles::KnownFace ContactTriangles::known_face(std::uint32_t place) const noexcept {
+  KnownFace known{place, face(place)};
+  known.room = room(place, known.face);
+  return known;
+}
+
+bool ContactTriangles::is_beyond(const KnownFace& known, Vec3 x) const noexcept {
+  const Room& room = known.room;
   if (!room.ends) return false;
-  const Foot near = foot(corners(place), x);
+  const Foot near = foot(known.face.t, x);
+  if (near.on == Foot::On::face) return false;
   const Vec3 d = x - near.point;
   const auto leads_nearer = [&](Vec3 along) noexcept { return dot(d, along) > k_margin * tolerance_m() * norm(along); };
-  if (near.on == Foot::On::face) return false;
-  if (near.on == Foot::On::edge) {
-    const std::uint32_t other = continued(place)[near.w == 0 ? 0 : near.v == 0 ? 2 : 1];
-    const Vec3 inwards = corners(other).all()[(edge_towards(other, place) + 2) % 3] - near.point;
-    return leads_nearer(inwards - (dot(inwards, near.edge) / dot(near.edge, near.edge)) * near.edge);
-  }
+  if (near.on == Foot::On::edge) return leads_nearer(room.beyond[near.w == 0 ? 0 : near.v == 0 ? 2 : 1]);
   bool beyond = false;
-  around(place,
+  around(known.place,
          near.v == 1   ? 1
          : near.w == 1 ? 2
                        : 0,
          [&](std::uint32_t at, std::uint32_t k) noexcept {
-           const std::array<Vec3, 3> c = corners(at).all();
-           beyond = beyond || leads_nearer(c[(k + 1) % 3] - c[k]);
+           beyond = beyond || leads_nearer(corner(at, (k + 1) % 3) - near.point);
          });
   return beyond;
 }
 
-/// Limits t to where the segment lies over the face or beyond its edges by `slack` at most.
-bool ContactTriangles::Room::clip(Vec3 from, Vec3 way, double slack, double& t_min, double& t_max) const noexcept {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double outside = dot(out[k], from) - end[k] - slack, grows = dot(out[k], way);
-    const bool begins_outside = outside + t_min * grows > 0, ends_outside = outside + t_max * grows > 0;
-    if (begins_outside && ends_outside) return false;
-    if (begins_outside) t_min = std::min(t_max, -outside / grows);
-    if (ends_outside) t_max = std::max(t_min, -outside / grows);
+namespace {
+
+/// The part of a segment from + t·way from one parameter to another.
+struct Part {
+  double begin, end;
+
+  bool is_empty() const noexcept { return !(begin <= end); }
+  /// Leaves out places with normal · x > most.
+  [[gnu::noinline]] void clip(Vec3 from, Vec3 way, Vec3 normal, double most) noexcept {
+    const double outside = dot(normal, from) - most, grows = dot(normal, way), at = -outside / grows;
+    if (outside + begin * grows > 0) begin = grows < 0 ? at : end + 1;
+    if (outside + end * grows > 0) end = grows > 0 ? at : begin - 1;
   }
-  return true;
-}
+};
+
+}  // namespace
 
 /// The triangles around are a graph over the face with no slope above the tilt: h above or below it, one of them is
 /// nearer at more than h·tilt beyond an edge. So on a plane the edges are the borders; else they are looked for between
-/// a place over the face and the ends. A segment that does not lead over the face and begins beyond leads through at
-/// most what the triangle shares with others, along a common edge or corner.
+/// the ends and the part over the face and over the ridges at its edges. A segment that begins beyond and meets neither
+/// leads through no more than what all triangles at a corner share.
 bool ContactTriangles::limit_to_room(const KnownFace& known, Vec3 from, Vec3 way, double& t_min,
                                      double& t_max) const noexcept {
   const Room& room = known.room;
   if (!room.ends) return true;
-  const double begin = dot(known.face.normal, from - known.face.t.a), rise = t_max * dot(known.face.normal, way);
+  const std::array<Vec3, 3> corner = known.face.t.all();
+  const double begin = dot(known.face.normal, from - corner[0]), rise = t_max * dot(known.face.normal, way);
   const double slack = room.tilt * std::max(std::abs(begin), std::abs(begin + rise));
-  if (!room.clip(from, way, slack, t_min, t_max)) return false;
+  Part near{t_min, t_max};
+  for (std::size_t k = 0; k < 3; ++k) near.clip(from, way, room.out[k], room.end[k] + slack);
+  if (near.is_empty()) return false;
+  t_min = near.begin;
+  t_max = near.end;
   if (slack < k_sharp * tolerance_m()) return true;
-  double inside = t_min, last_inside = t_max;
-  const bool is_over = room.clip(from, way, 0, inside, last_inside);
-  if (is_beyond(known.place, room, from + t_min * way)) {
-    if (!is_over) return false;
-    t_min = border(known, from, way, inside, t_min);
-  } else if (!is_over) {
-    last_inside = t_min;
+
+  Part inside = near;
+  for (std::size_t k = 0; k < 3; ++k) inside.clip(from, way, room.out[k], room.end[k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 edge = corner[(k + 1) % 3] - corner[k];
+    Part ridge = near;
+    ridge.clip(from, way, -room.out[k], -room.end[k]);
+    ridge.clip(from, way, room.beyond[k], dot(room.beyond[k], corner[k]));
+    ridge.clip(from, way, edge, dot(edge, corner[(k + 1) % 3]));
+    ridge.clip(from, way, -edge, -dot(edge, corner[k]));
+    if (!ridge.is_empty())
+      inside = inside.is_empty() ? ridge : Part{std::min(inside.begin, ridge.begin), std::max(inside.end, ridge.end)};
   }
-  if (is_beyond(known.place, room, from + t_max * way)) t_max = border(known, from, way, last_inside, t_max);
+  const bool begins_beyond = is_beyond(known, from + t_min * way);
+  if (inside.is_empty()) {
+    if (begins_beyond) return false;
+    inside.end = t_min;
+  }
+  if (begins_beyond) t_min = border(known, from, way, inside.begin, t_min);
+  if (is_beyond(known, from + t_max * way)) t_max = border(known, from, way, inside.end, t_max);
   return true;
 }
 
@@ -98,9 +125,14 @@ double ContactTriangles::border(const KnownFace& known, Vec3 from, Vec3 way, dou
   const double close = k_border * tolerance_m() / norm(way);
   while (std::abs(beyond - inside) > close) {
     const double middle = 0.5 * (inside + beyond);
-    (is_beyond(known.place, known.room, from + middle * way) ? beyond : inside) = middle;
+    (is_beyond(known, from + middle * way) ? beyond : inside) = middle;
   }
   return inside;
+}
+
+/// The corner of a triangle that does not lie on the edge to another one.
+Vec3 ContactTriangles::opposite(std::uint32_t place, std::uint32_t other) const noexcept {
+  return corner(place, (edge_towards(place, other) + 2) % 3);
 }
 
 }  // namespace papilla

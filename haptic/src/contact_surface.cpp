@@ -150,9 +150,9 @@ double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {
   double least = radius_m - contact_radius_m(), reach = radius_m;
   s.clusters().within(y, reach, [&](std::uint32_t cluster) noexcept {
     s.clusters().in_box(cluster, s.box_around(y, y, reach), [&](std::uint32_t place) noexcept {
-      const ContactTriangles::Face face = s.face(place);
-      const double of_triangle = s.clearance_of(face, y).value;
-      if (of_triangle < least && !s.is_beyond(place, s.room(place, face), y)) least = of_triangle;
+      const ContactTriangles::KnownFace known = s.known_face(place);
+      const double of_triangle = s.clearance_of(known.face, y).value;
+      if (of_triangle < least && !s.is_beyond(known, y)) least = of_triangle;
     });
     // Boxes include the relief: triangles farther than least + r + s from their box have more clearance than `least`.
     reach = std::min(reach, std::max(0.0, least + contact_radius_m()));

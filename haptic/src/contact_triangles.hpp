@@ -80,12 +80,11 @@ class ContactTriangles {
   };
   /// Where a triangle counts; see contact_room.cpp.
   struct Room {
-    bool ends = false;            ///< Else it is everywhere.
-    double tilt = 0;              ///< Tangent of the largest angle to the triangles around.
-    std::array<Vec3, 3> out{};    ///< Across edge k, from corner k to the next.
-    std::array<double, 3> end{};  ///< out · x of a place on the edge.
-
-    bool clip(Vec3 from, Vec3 way, double slack, double& t_min, double& t_max) const noexcept;
+    bool ends = false;             ///< Else it is everywhere.
+    double tilt = 0;               ///< Tangent of the largest angle to the triangles around.
+    std::array<Vec3, 3> out{};     ///< Across edge k, from corner k to the next.
+    std::array<double, 3> end{};   ///< out · x of a place on the edge.
+    std::array<Vec3, 3> beyond{};  ///< Away from the edge in the plane of the triangle behind it.
   };
   /// A face with relief, and its clearance where a sweep asked for it last.
   struct KnownFace {
@@ -173,6 +172,7 @@ class ContactTriangles {
   const TriangleClusters::Relief& relief(std::uint32_t place, std::size_t corner) const noexcept {
     return clusters_.relief(place, corner);
   }
+  Vec3 corner(std::uint32_t place, std::size_t k) const noexcept;
   Corners corners(std::uint32_t place) const noexcept;
   /// Zero for a triangle whose corners lie on a line.
   Vec3 face_normal(std::uint32_t place) const noexcept {
@@ -183,8 +183,10 @@ class ContactTriangles {
   static Foot foot(const Corners& t, Vec3 x) noexcept;
   Clearance clearance_of(const Face& face, Vec3 x) const noexcept;
   Room room(std::uint32_t place, const Face& face) const noexcept;
+  /// The face of a place and its room, without a clearance.
+  KnownFace known_face(std::uint32_t place) const noexcept;
   /// Whether x is left to the triangles around this one: one of them in which the relief goes on is nearer.
-  bool is_beyond(std::uint32_t place, const Room& room, Vec3 x) const noexcept;
+  bool is_beyond(const KnownFace& known, Vec3 x) const noexcept;
   /// @param weights of b and c.
   static ReliefSample relief_at(const Face& face, Vec2 weights) noexcept;
   /// Box around everything within `reach` of the segment from a to b, rounded outwards.
@@ -210,6 +212,7 @@ class ContactTriangles {
     return across[0] == other ? 0 : across[1] == other ? 1 : 2;
   }
   void find_arches(std::span<const std::uint32_t> opposite, std::span<const std::uint32_t> place_at);
+  Vec3 opposite(std::uint32_t place, std::uint32_t other) const noexcept;
   void continue_relief(const ContactMesh& mesh);
   bool goes_on(std::uint32_t place, std::uint32_t edge, std::uint32_t other, std::uint32_t other_edge) const noexcept;
   template <class Visit>
@@ -256,12 +259,13 @@ class ContactTriangles {
   std::size_t skipped_ = 0;
 };
 
+inline Vec3 ContactTriangles::corner(std::uint32_t place, std::size_t k) const noexcept {
+  const Corner& v = clusters_.corner(place, k);
+  return Vec3{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
 inline ContactTriangles::Corners ContactTriangles::corners(std::uint32_t place) const noexcept {
-  const auto corner = [&](std::size_t k) noexcept {
-    const Corner& v = clusters_.corner(place, k);
-    return Vec3{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-  };
-  return {corner(0), corner(1), corner(2)};
+  return {corner(place, 0), corner(place, 1), corner(place, 2)};
 }
 
 inline Box3f ContactTriangles::box_around(Vec3 a, Vec3 b, double reach) noexcept {

@@ -61,11 +61,9 @@ struct ReliefSweeps : ::testing::TestWithParam<std::pair<int, double>> {
            b < clusters.first_block(cluster) + clusters.blocks_of(cluster); ++b)
         for (std::uint32_t i = 0; i < clusters.triangles_in(b); ++i) {
           const std::uint32_t place = b * TriangleClusters::k_block + i;
-          const auto face = surface->face(place);
-          const auto of_face = surface->clearance_of(face, x - surface->origin());
-          if (of_face.value < least.value &&
-              !surface->is_beyond(place, surface->room(place, face), x - surface->origin()))
-            least = of_face;
+          const auto face = surface->known_face(place);
+          const auto of_face = surface->clearance_of(face.face, x - surface->origin());
+          if (of_face.value < least.value && !surface->is_beyond(face, x - surface->origin())) least = of_face;
         }
     });
     return least;
@@ -134,10 +132,15 @@ INSTANTIATE_TEST_SUITE_P(Plates, ReliefSweeps,
                          ::testing::Values(std::pair{1, 0.0}, std::pair{1, 4e-4}, std::pair{24, 0.0},
                                            std::pair{24, 4e-4}));
 
+/// Materials 0 and 1 have different waves, material 2 none.
 ContactSurface waves_on(const ContactMesh& mesh, double radius) {
-  ContactMaterial material;
-  material.height = 0;
-  return {mesh, {material}, {oblong_waves()}, radius};
+  std::vector<ContactMaterial> materials(3);
+  materials[0].height = 0;
+  materials[1].height = 1;
+  HeightFieldOptions options;
+  options.scale_m = 5e-5;
+  options.offset_m = -k_base_below;
+  return {mesh, materials, {oblong_waves(), HeightField(30, 22, wave_samples(30, 22), options)}, radius};
 }
 
 /// Triangles around the middle of the plate, and a ring of others around them.
@@ -224,6 +227,25 @@ ContactMesh with_patch(ContactMesh mesh, double columns_from, double columns_to)
   return mesh;
 }
 
+/// A seam that opens from a vertex inside.
+ContactMesh with_slit(ContactMesh mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.corner(t, 0).x + mesh.corner(t, 1).x + mesh.corner(t, 2).x < 1.5 * k_width) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      mesh.corner_uv[3 * t + k].x += 60 * std::max(0.0, mesh.corner(t, k).y - 0.5 * k_depth);
+  }
+  return mesh;
+}
+
+/// Some columns have another material.
+ContactMesh with_material(ContactMesh mesh, std::uint32_t material) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double x = (mesh.corner(t, 0).x + mesh.corner(t, 1).x + mesh.corner(t, 2).x) / 3;
+    mesh.material.push_back(x > 0.3 * k_width && x < 0.6 * k_width ? material : 0);
+  }
+  return mesh;
+}
+
 /// Every triangle with vertices of its own.
 ContactMesh soup(const ContactMesh& of) {
   ContactMesh mesh;
@@ -270,6 +292,37 @@ TEST_P(CurvedRelief, HasNoStepsBetweenTriangles) {
   EXPECT_GT(near, 40000);
 }
 
+/// Down to it and along it, over edges and corners.
+TEST_P(CurvedRelief, IsNotPassed) {
+  constexpr double k_radius = 8e-4, k_look = 2e-6;
+  constexpr double k_dip = 2.2;  // Between the samples of a sweep, half a texel apart, over a corner.
+  ContactMesh mesh = GetParam().mesh;
+  for (Vec3& p : mesh.positions) p = turned(p);
+  const ContactSurface surface = waves_on(mesh, k_radius);
+  const double tolerance = surface.tolerance_m();
+  const Vec3 up = turned({0, 0, 1}) - turned({0, 0, 0});
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int hits = 0;
+  for (int i = 0; i < 250; ++i) {
+    const Vec3 on = mesh.corner(random() % mesh.triangles.size(), random() % 3);
+    const Vec3 aside = normalized(cross(up, {unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5}));
+    Vec3 from = on + surface.contact_radius_m() * up + 2e-4 * (unit(random) - 0.5) * aside;
+    for (int k = 0; k < 3; ++k) from = from + (2e-5 * unit(random) - surface.clearance(from, 4e-3)) * up;
+    if (surface.clearance(from, 4e-3) < 0) continue;
+    const Vec3 way = 4e-4 * unit(random) * aside - 6e-5 * unit(random) * up;
+    const auto hit = surface.sweep(from, from + way);
+    hits += hit.has_value();
+    const double end = hit ? hit->t : 1;
+    for (double t = 0; t < end; t += k_look / norm(way))
+      ASSERT_GT(surface.clearance(from + t * way, 4e-3), -k_dip * tolerance) << i << ' ' << t;
+    if (hit) {
+      EXPECT_NEAR(surface.clearance(from + end * way, 4e-3), 0, k_dip * tolerance) << i;
+    }
+  }
+  EXPECT_GT(hits, 60);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Meshes, CurvedRelief,
     ::testing::Values(
@@ -283,6 +336,9 @@ INSTANTIATE_TEST_SUITE_P(
         NamedMesh{"slightly", grid([](double x, double y) { return 2 * x * (k_width - x) - 3 * y * (k_depth - y); })},
         NamedMesh{"seam", with_patch(grid([](double x, double) { return 4 * x * (k_width - x); }), 0.4, 2)},
         NamedMesh{"patch", with_patch(grid([](double, double) { return 0.0; }), 0.4, 0.7)},
+        NamedMesh{"slit", with_slit(grid([](double, double) { return 0.0; }))},
+        NamedMesh{"materials", with_material(grid([](double, double) { return 0.0; }), 1)},
+        NamedMesh{"plain", with_material(grid([](double x, double) { return 3 * x * (k_width - x); }), 2)},
         NamedMesh{"soup", soup(grid([](double x, double y) { return 3 * x * (k_width - y); }))},
         NamedMesh{"hub", hub(48, 2e-4)}, NamedMesh{"cone", hub(20, 9e-4)}, NamedMesh{"blunt", hub(11, 6e-5)}),
     [](const auto& mesh) { return mesh.param.name; });
