@@ -70,11 +70,11 @@ struct StimulusSample {
 /// watertight mesh and no edge rules, so slivers, duplicated vertices, gaps up to 2s and open sheets are ordinary
 /// input. Both sides of a triangle are solid; the relief is on the front, the back is the smooth base.
 ///
-/// All triangles count, but one: a triangle with relief whose neighbours go on with the same relief, all around its
-/// three corners, in a plane or bent away from the front by a few degrees, does not count where one of them is nearer
-/// to x. On such ground a place is felt once, at its closest point, and what a probe feels does not depend on the
-/// edges: at the border both triangles have the same closest point. In hollows, at seams of the uv, at rims and at
-/// ridges every triangle counts, so that nothing has steps or holes.
+/// Every triangle counts, with one exception: one with relief whose neighbours go on with the same relief, all around
+/// its three corners, in a plane or bent away from the front, does not count where one of them is nearer to x. On such
+/// ground a place is felt once, at its closest point, and what a probe feels does not depend on the edges: at the
+/// border both triangles have the same closest point. In hollows, at seams of the uv, at rims and at ridges every
+/// triangle counts, so that nothing has steps or holes.
 ///
 /// The base of a relief that reaches below the triangles (offset < 0) is the mesh moved inwards to the lowest height
 /// along the interpolated vertex normals, so that h ≥ 0. Where that would invert a triangle (a fillet tighter than the
