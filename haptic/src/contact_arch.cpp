@@ -40,52 +40,56 @@ double step_of(std::span<const Vec3> normals) noexcept {
 
 }  // namespace
 
-/// By the fans around all corners, each looked at once.
-/// @param opposite for directed edge 3·slot + k that of the triangle behind it, or k_no_place.
-/// @param place_at the place by slot.
-void ContactTriangles::find_arches(std::span<const std::uint32_t> opposite, std::span<const std::uint32_t> place_at) {
-  std::vector<std::array<float, 3>> normals;
-  normals.reserve(place_at.size());
-  for (const std::uint32_t place : place_at) {
+/// By the fans around all corners, each looked at once. In 13 bytes a triangle besides the result.
+void ContactTriangles::find_arches() {
+  const auto for_each = [&](const auto& visit) {
+    for (std::uint32_t cluster = 0; cluster < clusters_.clusters(); ++cluster)
+      for (std::uint32_t i = 0; i < clusters_.triangles_of(cluster); ++i) visit(cluster * TriangleClusters::k_most + i);
+  };
+  std::vector<std::array<float, 3>> normals;  // By slot.
+  normals.reserve(continued_.size());
+  for_each([&](std::uint32_t place) {
     const Vec3 n = face_normal(place);
     normals.push_back({static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)});
-  }
-  const auto normal_at = [&](std::size_t slot) {
+  });
+  const auto normal_at = [&](std::uint32_t slot) {
     const auto& [x, y, z] = normals[slot];
     return Vec3{double{x}, double{y}, double{z}};
   };
-  // Bit k: the triangle behind edge k rises above the plane; bit 3 + k: corner k is done.
-  std::vector<std::uint8_t> flags(place_at.size());
-  for (std::size_t slot = 0; slot < place_at.size(); ++slot) {
-    const std::array<Vec3, 3> c = corners(place_at[slot]).all();
+  // By slot. Bit k: the triangle behind edge k rises above the plane; bit 3 + k: corner k is done.
+  std::vector<std::uint8_t> flags(continued_.size());
+  for_each([&](std::uint32_t place) {
+    const std::uint32_t slot = clusters_.slot(place);
+    const std::array<Vec3, 3> c = corners(place).all();
     for (std::size_t k = 0; k < 3; ++k) {
-      if (opposite[3 * slot + k] == k_no_place) continue;
-      const Vec3 edge = c[(k + 1) % 3] - c[k], turn = cross(normal_at(opposite[3 * slot + k] / 3), normal_at(slot));
+      const std::uint32_t behind = continued_[slot][k];
+      if (behind == k_no_place) continue;
+      const Vec3 edge = c[(k + 1) % 3] - c[k], turn = cross(normal_at(clusters_.slot(behind)), normal_at(slot));
       if (dot(turn, edge) > k_hollow * norm(edge)) flags[slot] |= static_cast<std::uint8_t>(1U << k);
     }
-  }
-  std::array<std::size_t, k_most_around> fan;
+  });
+  arch_.assign(continued_.size(), 0);
+  std::array<std::uint32_t, k_most_around> fan;
   std::array<Vec3, k_most_around> fan_normals;
-  for (std::uint32_t first = 0; first < opposite.size(); ++first) {
-    if ((flags[first / 3] >> (3 + first % 3) & 1U) != 0) continue;
-    std::size_t count = 0;
-    bool ends = false, hollow = false;
-    for (std::uint32_t edge = first; count < fan.size() && !ends;) {
-      fan[count] = edge / 3;
-      fan_normals[count++] = normal_at(edge / 3);
-      flags[edge / 3] |= static_cast<std::uint8_t>(8U << edge % 3);
-      hollow = hollow || (flags[edge / 3] >> edge % 3 & 1U) != 0;
-      const std::uint32_t there = opposite[edge];
-      if (there == k_no_place) break;
-      edge = there - there % 3 + (there + 1) % 3;
-      ends = edge == first;
+  for_each([&](std::uint32_t place) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if ((flags[clusters_.slot(place)] >> (3 + k) & 1U) != 0) continue;
+      std::size_t count = 0;
+      bool hollow = false;
+      const bool closed = around(place, k, [&](std::uint32_t at, std::uint32_t corner) {
+        const std::uint32_t slot = clusters_.slot(at);
+        fan[count] = slot;
+        fan_normals[count++] = normal_at(slot);
+        hollow = hollow || (flags[slot] >> corner & 1U) != 0;
+        flags[slot] |= static_cast<std::uint8_t>(8U << corner);
+      });
+      const std::span around_it(fan_normals.data(), count);
+      const bool is_arch = closed && !hollow && step_of(around_it) * tallest_ < k_highest_step * tolerance_m();
+      const double tilt = is_arch ? tilt_of(around_it) : 1;
+      const auto code = tilt < 1 ? static_cast<std::uint16_t>(std::ceil(k_tilts * tilt)) : k_no_arch;
+      for (std::size_t i = 0; i < count; ++i) arch_[fan[i]] = std::max(arch_[fan[i]], code);
     }
-    const std::span around(fan_normals.data(), count);
-    const bool goes_round = ends && !hollow && step_of(around) * tallest_ < k_highest_step * tolerance_m();
-    const double tilt = goes_round ? tilt_of(around) : 1;
-    const auto code = tilt < 1 ? static_cast<std::uint16_t>(std::ceil(k_tilts * tilt)) : k_no_arch;
-    for (std::size_t i = 0; i < count; ++i) arch_[fan[i]] = std::max(arch_[fan[i]], code);
-  }
+  });
 }
 
 }  // namespace papilla

@@ -121,7 +121,10 @@ ContactTriangles::ContactTriangles(const ContactMesh& mesh, std::vector<ContactM
   material_.reserve(kept);
   for (const std::uint32_t t : source_)
     material_.push_back(static_cast<std::uint16_t>(mesh.material_of(t) | (has_relief(t) ? k_relief_bit : 0U)));
-  if (tallest_ > 0) continue_relief(mesh);
+  if (tallest_ > 0) {
+    continue_relief(mesh);
+    find_arches();
+  }
   if (!mesh.has_normals() ||
       std::none_of(materials_.begin(), materials_.end(), [](const auto& m) { return m.shading; }))
     return;

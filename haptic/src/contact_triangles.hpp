@@ -211,7 +211,7 @@ class ContactTriangles {
     const Continued& across = continued(place);
     return across[0] == other ? 0 : across[1] == other ? 1 : 2;
   }
-  void find_arches(std::span<const std::uint32_t> opposite, std::span<const std::uint32_t> place_at);
+  void find_arches();
   Vec3 opposite(std::uint32_t place, std::uint32_t other) const noexcept;
   void continue_relief(const ContactMesh& mesh);
   bool goes_on(std::uint32_t place, std::uint32_t edge, std::uint32_t other, std::uint32_t other_edge) const noexcept;

@@ -29,6 +29,11 @@ Vec3 turned(Vec3 p) {
   return c * p + s * cross(axis, p) + ((1 - c) * dot(axis, p)) * axis + Vec3{0.3, -0.2, 0.5};
 }
 
+ContactMesh turned(ContactMesh mesh) {
+  for (Vec3& p : mesh.positions) p = turned(p);
+  return mesh;
+}
+
 HeightField oblong_waves() {
   HeightFieldOptions options;
   options.scale_m = 8e-5;
@@ -39,11 +44,10 @@ HeightField oblong_waves() {
 
 /// Parameters: squares along x, radius of the probe.
 struct ReliefSweeps : ::testing::TestWithParam<std::pair<int, double>> {
-  ContactMesh mesh = plate(GetParam().first, 2, k_width, k_depth);
+  ContactMesh mesh = turned(plate(GetParam().first, 2, k_width, k_depth));
   std::unique_ptr<ContactTriangles> surface;
 
   void SetUp() override {
-    for (Vec3& p : mesh.positions) p = turned(p);
     ContactMaterial material;
     material.height = 0;
     surface =
@@ -206,8 +210,7 @@ TEST(ContactRelief, OnAPlaneDoesNotDependOnTheTriangles) {
   std::vector<ContactSurface> surfaces;
   for (ContactMesh& mesh : meshes) {
     add_far_triangle(mesh);
-    for (Vec3& p : mesh.positions) p = turned(p);
-    surfaces.push_back(waves_on(mesh, k_radius));
+    surfaces.push_back(waves_on(turned(mesh), k_radius));
   }
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -276,17 +279,21 @@ ContactMesh soup(const ContactMesh& of) {
   return mesh;
 }
 
-struct CurvedRelief : ::testing::TestWithParam<NamedMesh> {};
+struct CurvedRelief : ::testing::TestWithParam<NamedMesh> {
+  ContactMesh mesh = turned(GetParam().mesh);
+  ContactSurface surface = waves_on(mesh, 8e-4);
+  Vec3 up = turned({0, 0, 1}) - turned({0, 0, 0});
+  std::uniform_real_distribution<double> unit{0, 1};
+
+  Vec3 along_it(std::mt19937& random) {
+    return normalized(cross(up, {unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5}));
+  }
+};
 
 /// Close to edges and corners, in steps that are short beside the tolerance.
 TEST_P(CurvedRelief, HasNoStepsBetweenTriangles) {
-  constexpr double k_radius = 8e-4, k_step = 5e-8, k_steepest = 0.5;
-  ContactMesh mesh = GetParam().mesh;
-  for (Vec3& p : mesh.positions) p = turned(p);
-  const ContactSurface surface = waves_on(mesh, k_radius);
-  const Vec3 up = turned({0, 0, 1}) - turned({0, 0, 0});
+  constexpr double k_step = 5e-8, k_steepest = 0.5;
   std::mt19937 random(9);
-  std::uniform_real_distribution<double> unit(0, 1);
   std::normal_distribution<double> aside(0, 3e-5);
   int near = 0;
   double worst = 0;
@@ -296,7 +303,7 @@ TEST_P(CurvedRelief, HasNoStepsBetweenTriangles) {
     const Vec3 on = mesh.corner(t, k) + along * (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k));
     Vec3 x = on + surface.contact_radius_m() * up + Vec3{aside(random), aside(random), aside(random)};
     x = x + (8e-5 * unit(random) - surface.clearance(x, 4e-3)) * up;
-    const Vec3 step = k_step * normalized(cross(up, {unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5}));
+    const Vec3 step = k_step * along_it(random);
     double before = surface.clearance(x, 4e-3);
     for (int s = 0; s < 400; ++s) {
       x = x + step;
@@ -312,18 +319,13 @@ TEST_P(CurvedRelief, HasNoStepsBetweenTriangles) {
 
 /// Down to it and along it, over edges and corners.
 TEST_P(CurvedRelief, IsNotPassed) {
-  constexpr double k_radius = 8e-4, k_look = 2e-6;
+  constexpr double k_look = 2e-6;
   constexpr double k_dip = 2e-6;  // Between the samples of a sweep, half a texel apart, over a corner.
-  ContactMesh mesh = GetParam().mesh;
-  for (Vec3& p : mesh.positions) p = turned(p);
-  const ContactSurface surface = waves_on(mesh, k_radius);
-  const Vec3 up = turned({0, 0, 1}) - turned({0, 0, 0});
   std::mt19937 random(17);
-  std::uniform_real_distribution<double> unit(0, 1);
   int hits = 0;
   for (int i = 0; i < 250; ++i) {
     const Vec3 on = mesh.corner(random() % mesh.triangles.size(), random() % 3);
-    const Vec3 aside = normalized(cross(up, {unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5}));
+    const Vec3 aside = along_it(random);
     Vec3 from = on + surface.contact_radius_m() * up + 2e-4 * (unit(random) - 0.5) * aside;
     for (int k = 0; k < 3; ++k) from = from + (2e-5 * unit(random) - surface.clearance(from, 4e-3)) * up;
     if (surface.clearance(from, 4e-3) < 0) continue;
