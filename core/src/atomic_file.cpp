@@ -2,6 +2,7 @@
 #include "papilla/core/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -105,8 +107,34 @@ struct Slot {
   char name[4096];
 };
 std::array<Slot, 64> g_slots;
+std::atomic<bool> g_is_ending{false};
+std::atomic<int> g_in_making{0};
 
-/// Lists a temporary file for remove_temporaries() as long as it lives.
+/// While a temporary file is made and listed: no signal handler interrupts this thread, remove_temporaries() on another
+/// one waits, and after it none is made any more.
+class Making {
+ public:
+  Making() {
+    sigset_t all;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, &before_);
+    ++g_in_making;
+    if (!g_is_ending) return;
+    --g_in_making;
+    while (true) ::pause();  // The process is about to end.
+  }
+  ~Making() {
+    --g_in_making;
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  Making(const Making&) = delete;
+  Making& operator=(const Making&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+/// Lists a temporary file for remove_temporaries() as long as it lives; made before the file and gone after it.
 class Registration {
  public:
   explicit Registration(const fs::path& path) {
@@ -171,31 +199,44 @@ void remove_dead_temporaries(int folder, const fs::path& path) {
       remove_if_dead(folder, name.c_str());
 }
 
+/// Where a file is written: what the path leads to, and what is there now.
+struct Place {
+  fs::path target, folder;
+  std::optional<struct stat> old;
+  /// A device or a pipe (/dev/stdout, /dev/null) can't be replaced by renaming.
+  bool is_replaced() const noexcept { return !old || S_ISREG(old->st_mode); }
+};
+
 /// A new temporary file in a folder; it is removed with the object unless it was renamed.
 class Temporary {
  public:
-  /// @param path  the file that it will become.
-  Temporary(int folder, const fs::path& path, mode_t mode) : folder_(folder), path_(path) {
+  /// @param place  of the file that it will become.
+  Temporary(int folder, const Place& place, mode_t mode) : folder_(folder), path_(place.target) {
     for (int attempt = 0; attempt < k_attempts; ++attempt) {
+      const Making making;
       try {
         name_ = temporary_name();
       } catch (const IoError& error) {
-        throw IoError(path.string() + ": " + error.what());
+        throw IoError(path_.string() + ": " + error.what());
       }
+      listed_.emplace(place.folder / name_);
       file_ = ::openat(folder, name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
-      if (file_ < 0 && errno == EEXIST) continue;
-      if (file_ < 0) fail(path, errno);
+      if (file_ < 0) {
+        const int reason = errno;
+        listed_.reset();  // It is another's.
+        if (reason == EEXIST) continue;
+        fail(path_, reason);
+      }
       if (is_locked()) return;
       remove();
     }
-    throw IoError(path.string() + ": no temporary file can be made beside it");
+    throw IoError(path_.string() + ": no temporary file can be made beside it");
   }
   ~Temporary() { remove(); }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
 
   int file() const noexcept { return file_; }
-  const std::string& name() const noexcept { return name_; }
 
   /// Takes over mode bits and, where permitted, the owner of the file that is replaced.
   void adopt(const struct stat& old) const {
@@ -234,6 +275,7 @@ class Temporary {
   int folder_;
   const fs::path& path_;
   std::string name_;
+  std::optional<Registration> listed_;
   int file_ = -1;
 };
 
@@ -259,14 +301,6 @@ fs::path link_target(const fs::path& path) {
   }
   fail(path, ELOOP);
 }
-
-/// Where a file is written: what the path leads to, and what is there now.
-struct Place {
-  fs::path target, folder;
-  std::optional<struct stat> old;
-  /// A device or a pipe (/dev/stdout, /dev/null) can't be replaced by renaming.
-  bool is_replaced() const noexcept { return !old || S_ISREG(old->st_mode); }
-};
 
 Place place_of(const fs::path& path) {
   if (path.filename().empty()) throw IoError("'" + path.string() + "': is not the name of a file");
@@ -313,8 +347,7 @@ void write_atomically(const fs::path& path, const std::function<void(std::ostrea
   require_space(place, path, bytes);
   const Descriptor directory = open_folder(place, path);
   remove_dead_temporaries(directory, place.folder);
-  Temporary temporary(directory, place.target, place.old ? 0600 : 0666);  // A new file gets what umask leaves.
-  const Registration registration(place.folder / temporary.name());
+  Temporary temporary(directory, place, place.old ? 0600 : 0666);  // A new file gets what umask leaves.
   fill(temporary.file(), path, write);
   if (place.old) temporary.adopt(*place.old);
   temporary.rename(durability);
@@ -327,8 +360,7 @@ void require_writable(const fs::path& path) {
     return;
   }
   const Descriptor directory = open_folder(place, path);
-  const Temporary temporary(directory, place.target, 0600);
-  const Registration registration(place.folder / temporary.name());
+  const Temporary temporary(directory, place, 0600);
   fill(temporary.file(), path, [](std::ostream& out) { out << std::string(k_least_space, '\0'); });
 }
 
@@ -339,6 +371,8 @@ void write_atomically(const fs::path& path, std::string_view content) {
 }
 
 void remove_temporaries() noexcept {
+  g_is_ending = true;
+  while (g_in_making > 0) ::sched_yield();
   for (const Slot& slot : g_slots)
     if (slot.named) ::unlink(slot.name);
 }
