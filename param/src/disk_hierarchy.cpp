@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 
 namespace papilla::param_detail {
 namespace {
@@ -17,6 +19,9 @@ constexpr Index k_none = ~Index{0};
 
 /// Vertices with more triangles stay until their neighbours are gone.
 constexpr std::size_t k_most_triangles = 24;
+
+/// Rings of at most so many triangles are kept from when they are judged until the vertex goes.
+constexpr std::size_t k_most_kept = 8;
 
 /// Triangles of a target that are looked through at most.
 constexpr std::size_t k_most_of_target = 200;
@@ -49,7 +54,8 @@ class DiskHierarchy::Coarsener {
         head_(positions.size(), k_none),
         tail_(positions.size(), k_none),
         next_(3 * h_.triangles_.size(), k_none),
-        locked_(positions.size(), 0) {
+        locked_(positions.size(), 0),
+        kept_(std::make_unique_for_overwrite<KeptRing[]>(positions.size())) {
     for (Index c = 0; c < next_.size(); ++c) {
       const Index v = h_.triangles_[c / 3][c % 3];
       if (head_[v] == k_none)
@@ -85,6 +91,13 @@ class DiskHierarchy::Coarsener {
     std::size_t after(std::size_t i) const { return i + 1 == size ? 0 : i + 1; }
   };
 
+  /// A short one: its triangles' corners at the vertex; none: it is to be found again.
+  struct KeptRing {
+    std::array<Index, k_most_kept> corner;
+    std::uint8_t triangles;
+    bool closed;
+  };
+
   struct Candidate {
     double cost;
     Index vertex, target;
@@ -94,11 +107,14 @@ class DiskHierarchy::Coarsener {
   };
 
   void pass(const Round& round, std::size_t enough) {
-    for_all([&](Index, Index v) { drop_dead(v); });
+    for_all([&](Index, Index v) {
+      if (locked_[v] == pass_) drop_dead(v);
+    });
     std::vector<Candidate> candidates(vertices_.size());
     for_all([&](Index i, Index v) {
       Ring ring;
       candidates[i] = find_ring(v, ring) ? best_target(v, ring, round) : Candidate{0, v, k_none};
+      if (candidates[i].target != k_none) keep(v, ring);
     });
     std::erase_if(candidates, [](const Candidate& c) { return c.target == k_none; });
     const auto used = candidates.begin() +
@@ -110,9 +126,10 @@ class DiskHierarchy::Coarsener {
     Ring ring;
     std::size_t left = vertices_.size();
     for (auto c = candidates.begin(); c != used && left > enough; ++c) {
-      // An unlocked vertex still has the ring it was judged by; its target's neighbours may have changed.
-      if (locked_[c->vertex] == pass_ || !find_ring(c->vertex, ring) || !may_merge(ring, place_of(ring, c->target)))
-        continue;
+      // An unlocked vertex still has the ring it was judged by; the neighbours of a target that is locked have changed.
+      if (locked_[c->vertex] == pass_) continue;
+      take_kept(c->vertex, ring);
+      if (locked_[c->target] == pass_ && !may_merge(ring, place_of(ring, c->target))) continue;
       remove(c->vertex, c->target, ring);
       --left;
     }
@@ -194,6 +211,36 @@ class DiskHierarchy::Coarsener {
     }
     if (!ring.closed) ring.vertex[ring.size++] = to[ahead - 1];
     return ring.closed ? ring.size >= 3 : ring.triangles >= 2;
+  }
+
+  void keep(Index v, const Ring& ring) {
+    KeptRing& kept = kept_[v];
+    kept.triangles = 0;
+    if (ring.triangles > k_most_kept) return;
+    for (std::size_t i = 0; i < ring.triangles; ++i) {
+      const Triangle& t = h_.triangles_[ring.triangle[i]];
+      kept.corner[i] = 3 * ring.triangle[i] + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
+    }
+    kept.triangles = static_cast<std::uint8_t>(ring.triangles);
+    kept.closed = ring.closed;
+  }
+
+  /// The ring of a vertex whose triangles are those it was judged by.
+  void take_kept(Index v, Ring& ring) const {
+    const KeptRing& kept = kept_[v];
+    if (kept.triangles == 0) {
+      find_ring(v, ring);
+      return;
+    }
+    ring.triangles = ring.size = kept.triangles;
+    ring.closed = kept.closed;
+    for (std::size_t i = 0; i < ring.triangles; ++i) {
+      const Index c = kept.corner[i];
+      ring.triangle[i] = c / 3;
+      ring.vertex[i] = h_.triangles_[c / 3][(c % 3 + 1) % 3];
+    }
+    const Index last = kept.corner[ring.triangles - 1];
+    if (!ring.closed) ring.vertex[ring.size++] = h_.triangles_[last / 3][(last % 3 + 2) % 3];
   }
 
   /// The vertex may slide onto ring vertex `place`: the target has no edge yet to those it will be linked with.
@@ -294,23 +341,18 @@ class DiskHierarchy::Coarsener {
     }
     for (std::size_t i = 0; i < ring.size; ++i) locked_[ring.vertex[i]] = pass_;
     locked_[v] = pass_;
-    drop_dead(v);
-    if (head_[v] != k_none) {
-      drop_dead(target);
-      if (head_[target] == k_none)
-        head_[target] = head_[v];
-      else
-        next_[tail_[target]] = head_[v];
-      tail_[target] = tail_[v];
-      head_[v] = tail_[v] = k_none;
-    }
+    // The next pass drops what vanished.
+    next_[tail_[target]] = head_[v];
+    tail_[target] = tail_[v];
+    head_[v] = tail_[v] = k_none;
     h_.removals_.push_back(removal);
   }
 
   DiskHierarchy& h_;
   std::span<const Vec3> positions_;
   std::vector<Index> head_, tail_, next_;  ///< Corners of each vertex as a list.
-  std::vector<std::uint32_t> locked_;
+  std::vector<std::uint32_t> locked_;      ///< The last pass that changed the vertex's triangles.
+  std::unique_ptr<KeptRing[]> kept_;       ///< Of each vertex.
   std::uint32_t pass_ = 0;
   std::vector<Index> vertices_;
 };
