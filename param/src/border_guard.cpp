@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "corners_of_vertices.hpp"
 #include "papilla/core/bounds.hpp"
 
 namespace papilla::param_detail {
@@ -250,17 +249,17 @@ std::vector<BorderPair> border_of(std::span<const Triangle> triangles, std::size
   std::vector<Index> one_sided(vertices, 0);
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) one_sided[t[k]] += t[(k + 1) % 3] - t[(k + 2) % 3];
-  const CornersOfVertices corners(triangles, vertices);
-  const auto next = [&](Index corner) { return triangles[corner / 3][(corner % 3 + 1) % 3]; };
-  std::vector<BorderPair> border;
+  std::vector<BorderPair> border, back;  // edges between vertices of the border, as triangles have them and turned
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index from = t[k], to = t[(k + 1) % 3];
       if (one_sided[from] == 0 || one_sided[to] == 0) continue;
-      const auto around = corners.of(to);
-      if (std::none_of(around.begin(), around.end(), [&](Index c) { return next(c) == from; }))
-        border.push_back({from, to});
+      border.push_back({from, to});
+      back.push_back({to, from});
     }
+  std::sort(back.begin(), back.end());
+  std::erase_if(border,
+                [&](const BorderPair& edge) { return std::binary_search(back.begin(), back.end(), edge); });  // within
   return border;
 }
 

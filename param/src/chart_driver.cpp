@@ -2,6 +2,7 @@
 #include "chart_driver.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <utility>
@@ -138,8 +139,10 @@ Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, cons
                           const DriverOptions& options) {
   check_mesh(mesh, options.function);
   check_charts(mesh, charts, options.function);
-  const Adjacency across = connect_triangles(mesh);
-  const TrianglesOfCharts members = sort_by_chart(charts.of_triangle, charts.count);
+  Adjacency across;
+  TrianglesOfCharts members;
+  oneapi::tbb::parallel_invoke([&] { across = connect_triangles(mesh); },
+                               [&] { members = sort_by_chart(charts.of_triangle, charts.count); });
   const ChartCutter cutter(mesh, across, charts);
   std::vector<MappedChart> mapped(charts.count);
   oneapi::tbb::parallel_for(std::uint32_t{0}, charts.count, [&](std::uint32_t c) {

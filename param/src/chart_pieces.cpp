@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "chart_pieces.hpp"
 
+#include <algorithm>
+
 #include "chunks.hpp"
 
 namespace papilla::param_detail {
@@ -37,29 +39,37 @@ ChartSurface ChartCutter::cut(std::uint32_t chart, std::span<const Index> triang
   ChartSurface surface;
   surface.triangles.assign(triangles.size(), {k_no_vertex, k_no_vertex, k_no_vertex});
   surface.across.assign(triangles.size(), {k_no_triangle, k_no_triangle, k_no_triangle});
+  // The corner where the edge that leaves a corner begins in the triangle beyond, at its other end.
+  std::vector<Index> twin(3 * triangles.size());
   for_chunks(triangles.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& own = mesh_->triangles[triangles[i]];
       for (std::size_t k = 0; k < 3; ++k) {
+        twin[3 * i + k] = k_no_corner;
         const Index other = (*across_)[3 * std::size_t{triangles[i]} + k];
-        if (other != k_no_triangle && charts_->of_triangle[other] == chart) surface.across[i][k] = local_[other];
+        if (other == k_no_triangle || charts_->of_triangle[other] != chart) continue;
+        surface.across[i][k] = local_[other];
+        const Triangle& theirs = mesh_->triangles[other];
+        for (Index at = 0; at < 3; ++at)
+          if (theirs[at] == own[(k + 1) % 3] && theirs[(at + 1) % 3] == own[k]) {
+            twin[3 * i + k] = 3 * local_[other] + at;
+            break;
+          }
       }
+    }
   });
-  const auto vertex = [&](Index corner) { return mesh_->triangles[triangles[corner / 3]][corner % 3]; };
-  // The corner at the same vertex beyond the edge that leaves it, or arrives there. It runs the other way in the
-  // neighbour.
+  // The corner at the same vertex beyond the edge that leaves it, or arrives there.
   const auto beyond = [&](Index corner, bool leaving) {
-    const Index edge = leaving ? corner : previous(corner), other = surface.across[edge / 3][edge % 3];
-    if (other == k_no_triangle) return k_no_corner;
-    const Index from = vertex(edge), to = vertex(next(edge));
-    for (Index at = 3 * other; at < 3 * other + 3; ++at)
-      if (vertex(at) == to && vertex(next(at)) == from) return leaving ? next(at) : at;
-    return k_no_corner;
+    const Index other = twin[leaving ? corner : previous(corner)];
+    return leaving && other != k_no_corner ? next(other) : other;
   };
   const auto number = [&](Index corner) -> Index& { return surface.triangles[corner / 3][corner % 3]; };
+  const auto border = static_cast<std::size_t>(std::count(twin.begin(), twin.end(), k_no_corner));
+  surface.positions.reserve((triangles.size() + border) / 2 + 1);  // Euler's formula: what a disk has.
   for (Index first = 0; first < 3 * triangles.size(); ++first) {
     if (number(first) != k_no_vertex) continue;
     const auto count = static_cast<Index>(surface.positions.size());
-    surface.positions.push_back(mesh_->positions[vertex(first)]);
+    surface.positions.push_back(mesh_->positions[mesh_->triangles[triangles[first / 3]][first % 3]]);
     number(first) = count;
     for (const bool leaving : {true, false})
       for (Index c = beyond(first, leaving); c != k_no_corner && number(c) == k_no_vertex; c = beyond(c, leaving))

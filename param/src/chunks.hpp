@@ -10,7 +10,7 @@
 
 namespace papilla::param_detail {
 
-/// Triangles that one thread works through at a time.
+/// Triangles or vertices that one thread works through at a time.
 inline constexpr std::size_t k_chunk = 4096;
 
 /// Calls body(chunk, begin, end) for all parts of [0, count), in parallel when there are several.
@@ -24,17 +24,18 @@ void for_chunks(std::size_t count, Body body) {
     oneapi::tbb::parallel_for(std::size_t{0}, chunks, run);
 }
 
-/// Sums term(i) in an order that depends on nothing but `count`.
+/// Sums term(i), a number or a vector, in an order that depends on nothing but `count`.
 template <class Term>
-double sum_over(std::size_t count, Term term) {
-  std::vector<double> sums((count + k_chunk - 1) / k_chunk, 0);
+auto sum_over(std::size_t count, Term term) {
+  using Sum = decltype(term(std::size_t{0}));
+  std::vector<Sum> sums((count + k_chunk - 1) / k_chunk, Sum{});
   for_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    Sum sum{};
+    for (std::size_t i = begin; i < end; ++i) sum = sum + term(i);
     sums[chunk] = sum;
   });
-  double sum = 0;
-  for (const double s : sums) sum += s;
+  Sum sum{};
+  for (const Sum& s : sums) sum = sum + s;
   return sum;
 }
 

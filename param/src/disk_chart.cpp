@@ -90,45 +90,48 @@ double area_of(const ChartSurface& chart) {
 }
 
 void normalise(const ChartSurface& chart, UpAxis up, bool scale, std::vector<Vec2>& uv) {
-  const double area = area_of(chart);
-  double uv_area = 0;
-  Vec2 grain;
-  for (const Triangle& t : chart.triangles) {
+  // The map's area, and the direction that the grain has in it.
+  const Vec3 sums = sum_over(chart.triangles.size(), [&](std::size_t i) {
+    const Triangle& t = chart.triangles[i];
     const Vec3 p = chart.positions[t[1]] - chart.positions[t[0]], q = chart.positions[t[2]] - chart.positions[t[0]];
     const Vec2 m = uv[t[1]] - uv[t[0]], n = uv[t[2]] - uv[t[0]];
-    uv_area += 0.5 * cross(m, n);
+    const double uv_area = 0.5 * cross(m, n);
     const Vec3 doubled = cross(p, q);
     const double square = dot(doubled, doubled);
-    if (!(square > k_no_area * k_no_area * longest_squared(p, q) * longest_squared(p, q))) continue;
+    if (!(square > k_no_area * k_no_area * longest_squared(p, q) * longest_squared(p, q))) return Vec3{uv_area, 0, 0};
     // d = x p + y q has (x, y) from the two cross products; its image is x m + y n. Weighted by area / size of the
     // image.
     const Vec3 d = grain_direction(normalized(doubled), up);
     const double x = dot(cross(d, q), doubled) / square, y = dot(cross(p, d), doubled) / square;
     const Vec2 image = x * m + y * n;
-    const double size = norm(image);
-    if (size > 0) grain = grain + (std::sqrt(square) * norm(d) / size) * image;
-  }
+    const double size = norm(image), weight = size > 0 ? std::sqrt(square) * norm(d) / size : 0;
+    return Vec3{uv_area, weight * image.x, weight * image.y};
+  });
+  const double area = area_of(chart), uv_area = sums.x;
+  const Vec2 grain{sums.y, sums.z};
   if (!(uv_area > 0)) return;
   const double factor = scale ? std::sqrt(area / uv_area) : 1.0, length = norm(grain);
   // Turns `grain` to (0, 1): multiplication with (y + i x) / length.
   const Vec2 turn = length > 1e-6 * area ? Vec2{grain.y / length, grain.x / length} : Vec2{1, 0};
   const Vec2 origin = uv.front();
-  for (Vec2& z : uv) {
-    const Vec2 w = factor * (z - origin);
-    z = {w.x * turn.x - w.y * turn.y, w.x * turn.y + w.y * turn.x};
-  }
+  for_chunks(uv.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Vec2 w = factor * (uv[v] - origin);
+      uv[v] = {w.x * turn.x - w.y * turn.y, w.x * turn.y + w.y * turn.x};
+    }
+  });
 }
 
 std::string map_failure(const ChartSurface& chart, const std::vector<Vec2>& uv) {
   if (!std::all_of(uv.begin(), uv.end(), [](Vec2 p) { return is_finite(p); })) return "the solution is not finite";
-  std::size_t flipped = 0;
-  for (const Triangle& t : chart.triangles) {
+  const std::size_t flipped = sum_over(chart.triangles.size(), [&](std::size_t i) -> std::size_t {
+    const Triangle& t = chart.triangles[i];
     const Vec3 p = chart.positions[t[1]] - chart.positions[t[0]], q = chart.positions[t[2]] - chart.positions[t[0]];
     const Vec2 m = uv[t[1]] - uv[t[0]], n = uv[t[2]] - uv[t[0]];
     const bool has_area = norm(cross(p, q)) > k_no_area * longest_squared(p, q);
     const double signed_area = cross(m, n);
-    flipped += has_area ? !(signed_area > 0) : signed_area < -k_rounding_area * longest_squared(m, n);
-  }
+    return has_area ? !(signed_area > 0) : signed_area < -k_rounding_area * longest_squared(m, n);
+  });
   if (flipped > 0)
     return std::to_string(flipped) + " of " + std::to_string(chart.triangles.size()) +
            " triangles are flipped or collapsed";

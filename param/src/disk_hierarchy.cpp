@@ -56,6 +56,8 @@ class DiskHierarchy::Coarsener {
         next_(3 * h_.triangles_.size(), k_none),
         locked_(positions.size(), 0),
         kept_(std::make_unique_for_overwrite<KeptRing[]>(positions.size())) {
+    h_.removals_.reserve(positions.size());
+    h_.around_.reserve(next_.size());
     for (Index c = 0; c < next_.size(); ++c) {
       const Index v = h_.triangles_[c / 3][c % 3];
       if (head_[v] == k_none)

@@ -303,12 +303,21 @@ void distribute_elements(const Elements& elements, Dissection& dissection) {
   std::vector<Index> front_of(dissection.order.size());
   for (Index f = 0; f < dissection.fronts.size(); ++f)
     for (Index i = dissection.fronts[f].begin; i < dissection.fronts[f].end; ++i) front_of[i] = f;
-  for (std::size_t e = 0; e < elements.count(); ++e) {
-    if (elements.of(e).empty()) continue;
-    Index first = ~Index{0};
-    for (const Index v : elements.of(e)) first = std::min(first, dissection.position[v]);
-    dissection.fronts[front_of[first]].elements.push_back(static_cast<Index>(e));
-  }
+  std::vector<Index> front_of_element(elements.count(), k_no_front);
+  for_chunks(elements.count(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      Index first = ~Index{0};
+      for (const Index v : elements.of(e)) first = std::min(first, dissection.position[v]);
+      if (!elements.of(e).empty()) front_of_element[e] = front_of[first];
+    }
+  });
+  std::vector<Index> counts(dissection.fronts.size(), 0);
+  for (const Index f : front_of_element)
+    if (f != k_no_front) ++counts[f];
+  for (std::size_t f = 0; f < counts.size(); ++f) dissection.fronts[f].elements.reserve(counts[f]);
+  for (std::size_t e = 0; e < front_of_element.size(); ++e)
+    if (front_of_element[e] != k_no_front)
+      dissection.fronts[front_of_element[e]].elements.push_back(static_cast<Index>(e));
 }
 
 void count_work(Dissection& dissection) {

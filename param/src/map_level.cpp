@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "chunks.hpp"
 #include "corners_of_vertices.hpp"
 #include "map_descent.hpp"
 #include "vertex_step.hpp"
@@ -32,6 +33,37 @@ void move(Index v, Vec2 place, MapLevel& level, std::optional<BorderGuard>& guar
   level.uv[v] = place;
 }
 
+double area_of(std::span<const RestShape> shapes) {
+  return sum_over(shapes.size(), [&](std::size_t t) { return shapes[t].area; });
+}
+
+std::vector<Sliver> slivers_of(std::span<const Vec3> positions, const MapLevel& level) {
+  const double least = least_edge(positions, level.triangles);
+  std::vector<std::vector<Sliver>> of_chunk((level.triangles.size() + k_chunk - 1) / k_chunk);
+  for_chunks(level.triangles.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (auto t = static_cast<Index>(begin); t < end; ++t) {
+      const auto [a, b, c] = level.triangles[t];
+      const RestShape own = rest_shape(positions[a], positions[b], positions[c], least);
+      if (level.rest[t].area > own.area) of_chunk[chunk].push_back({t, own});
+    }
+  });
+  std::vector<Sliver> slivers;
+  for (const std::vector<Sliver>& some : of_chunk) slivers.insert(slivers.end(), some.begin(), some.end());
+  return slivers;
+}
+
+/// Which vertices have a neighbour in a later chunk of vertices: they stay until chunks have been moved side by side.
+std::vector<char> find_waiting(const MapLevel& level, const CornersOfVertices& corners) {
+  std::vector<char> waits(level.uv.size());
+  for_chunks(waits.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      waits[v] = std::ranges::any_of(corners.of(v), [&](Index c) {
+        return std::ranges::any_of(level.triangles[c / 3], [&](Index w) { return w >= end; });
+      });
+  });
+  return waits;
+}
+
 }  // namespace
 
 MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> positions, std::span<const Vec2> uv,
@@ -40,6 +72,9 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
   MapLevel level;
   std::vector<Index> number(positions.size(), nowhere);
   std::vector<Vec3> own_positions;
+  const std::size_t vertices = hierarchy.vertex_count();
+  level.vertices.reserve(vertices), own_positions.reserve(vertices), level.uv.reserve(vertices);
+  level.triangles.reserve(2 * vertices);  // A disk has fewer.
   for (Index t = 0; t < hierarchy.triangles().size(); ++t) {
     if (!hierarchy.alive(t)) continue;
     Triangle local{};
@@ -56,12 +91,8 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
     level.triangles.push_back(local);
   }
   level.rest = rest_shapes(own_positions, level.triangles, least_area);
-  if (std::isfinite(least_area.shape)) {
-    const std::vector<RestShape> own = rest_shapes(own_positions, level.triangles);
-    for (Index t = 0; t < own.size(); ++t)
-      if (level.rest[t].area > own[t].area) level.slivers.push_back({t, own[t]});
-  }
-  for (const RestShape& rest : level.rest) level.area += rest.area;
+  if (std::isfinite(least_area.shape)) level.slivers = slivers_of(own_positions, level);
+  level.area = area_of(level.rest);
   level.border = border_of(level.triangles, level.vertices.size());
   return level;
 }
@@ -72,7 +103,7 @@ MapLevel whole_level(const ChartSurface& chart, std::vector<Vec2> uv) {
   std::iota(level.vertices.begin(), level.vertices.end(), Index{0});
   level.triangles.assign(chart.triangles.begin(), chart.triangles.end());
   level.rest = rest_shapes(chart.positions, chart.triangles);
-  for (const RestShape& shape : level.rest) level.area += shape.area;
+  level.area = area_of(level.rest);
   level.border = border_of(level.triangles, uv.size());
   level.uv = std::move(uv);
   return level;
@@ -89,13 +120,22 @@ int relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
   const SymmetricDirichlet energy(level.rest);
   const DescentProblem problem{level.triangles, &energy, nullptr};
   double value = total_energy(problem, level.uv);
+  const auto relax_vertex = [&](Index v, std::vector<CornerView>& ring) {
+    view_from(v, level, corners, ring);
+    move(v, level.uv[v] + corner_step(ring), level, guard);
+  };
+  // What watches the border sees one move after the other.
+  const std::vector<char> waits = guarded ? std::vector<char>(level.uv.size(), 1) : find_waiting(level, corners);
   std::vector<CornerView> ring;
   int sweep = 0;
   while (sweep++ < sweeps) {
-    for (Index v = 0; v < level.uv.size(); ++v) {
-      view_from(v, level, corners, ring);
-      move(v, level.uv[v] + corner_step(ring), level, guard);
-    }
+    for_chunks(level.uv.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      std::vector<CornerView> own_ring;
+      for (auto v = static_cast<Index>(begin); v < end; ++v)
+        if (!waits[v]) relax_vertex(v, own_ring);
+    });
+    for (Index v = 0; v < level.uv.size(); ++v)
+      if (waits[v]) relax_vertex(v, ring);
     const double before = value;
     value = total_energy(problem, level.uv);
     if (!(before - value > tolerance * value)) break;

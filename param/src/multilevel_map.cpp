@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "chunks.hpp"
 #include "convex_map.hpp"
 #include "map_descent.hpp"
 #include "map_level.hpp"
@@ -349,17 +350,14 @@ class Multilevel {
 
   /// @param last for the whole chart: of slivers alone.
   LeastArea least_area(bool last) const {
-    double area = 0;
-    std::size_t count = 0;
-    for (Index t = 0; t < hierarchy_.triangles().size(); ++t) {
-      if (!hierarchy_.alive(t)) continue;
+    const auto [area, count] = sum_over(hierarchy_.triangles().size(), [&](std::size_t t) {
+      if (!hierarchy_.alive(static_cast<Index>(t))) return Vec2{};
       const Triangle& c = hierarchy_.triangles()[t];
-      area += 0.5 * norm(cross(chart_.positions[c[1]] - chart_.positions[c[0]],
-                               chart_.positions[c[2]] - chart_.positions[c[0]]));
-      ++count;
-    }
-    return {k_least_area * area / static_cast<double>(count),
-            last ? k_sliver : std::numeric_limits<double>::infinity()};
+      return Vec2{0.5 * norm(cross(chart_.positions[c[1]] - chart_.positions[c[0]],
+                                   chart_.positions[c[2]] - chart_.positions[c[0]])),
+                  1};
+    });
+    return {k_least_area * area / count, last ? k_sliver : std::numeric_limits<double>::infinity()};
   }
 
   double energy_of(const MapLevel& level) const {

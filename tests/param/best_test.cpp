@@ -218,7 +218,8 @@ TEST(Best, EnergyFallsAlongTheTrace) {
 }
 
 TEST(Best, SameBytesForAnyNumberOfThreads) {
-  for (const TriangleMesh& mesh : {test::grid_mesh(32, 100, test::grab_handle, 0.15), finger(30), spiral(20)}) {
+  for (const TriangleMesh& mesh :
+       {test::grid_mesh(32, 100, test::grab_handle, 0.15), finger(30), spiral(20), test::dashboard_mesh(150, 60)}) {
     std::vector<Flattening> results;
     for (const std::size_t threads : {1u, 2u, 4u}) {
       const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
