@@ -14,6 +14,8 @@ constexpr double k_step_m = 1e-3;
 constexpr double k_random_turn = 0.3;      // Radians a step, in both directions.
 constexpr double k_sideways = 2;           // Radians.
 constexpr int k_most_turns = 8;            // At one place, before the motion ends.
+constexpr int k_most_halvings = 6;         // Of the approach.
+constexpr double k_off_surface = 0.01;     // Of the approach: the triangle below is no wall on the way.
 constexpr double k_least_progress = 0.25;  // Of a step; with less the material has ended.
 
 Vec3 any_tangent(Vec3 n) {
@@ -28,6 +30,17 @@ Vec3 tangential(Vec3 direction, Vec3 n) { return normalized(direction - dot(dire
 /// A unit tangent turned about the normal.
 Vec3 turned(Vec3 direction, Vec3 n, double angle) {
   return tangential(std::cos(angle) * direction + std::sin(angle) * cross(n, direction), n);
+}
+
+/// How far above the surface a motion begins: halved until no wall lies on the way there and the probe has room.
+double free_approach(const ContactSurface& surface, const SurfacePoint& here, double approach) {
+  const double radius = surface.probe_radius_m();
+  for (int i = 0; i < k_most_halvings; ++i, approach *= 0.5) {
+    const Vec3 from = here.point + (k_off_surface * approach) * here.face_normal;
+    const Vec3 start = here.point + (radius + approach) * here.face_normal;
+    if (surface.crossings(from, start) == 0 && !surface.closest_point(start, radius)) break;
+  }
+  return approach;
 }
 
 /// Uniform in [0, 1), the same with every standard library.
@@ -50,7 +63,8 @@ Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t materia
   Vec3 direction = any_tangent(here.face_normal);
   const double radius = surface.probe_radius_m();
   const auto pressed = [&](const SurfacePoint& p) { return p.point + (radius - options.depth_m) * p.face_normal; };
-  std::vector<Trajectory::Sample> samples{{0, here.point + (radius + options.approach_m) * here.face_normal},
+  const double approach = free_approach(surface, here, options.approach_m);
+  std::vector<Trajectory::Sample> samples{{0, here.point + (radius + approach) * here.face_normal},
                                           {options.press_s, pressed(here)}};
   if (options.motion == Motion::tap) {
     const double half = 0.5 / options.taps_per_s;

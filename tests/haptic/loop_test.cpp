@@ -365,6 +365,26 @@ TEST(Stroke, StaysAtItsDepthAndSpeedOnASphere) {
   EXPECT_THROW(press_and_stroke(surface, 1, {}, {}), InvalidInput);
 }
 
+/// Two plates that look at each other across a gap of 4 mm, and one behind the upper one.
+TEST(Stroke, BeginsBeforeTheWallOnTheOtherSide) {
+  const ContactMesh plate = testing::plate(4, 4, 0.1, 0.1);
+  ContactMesh facing;
+  facing.positions = plate.positions, facing.triangles = plate.triangles;
+  for (const double z : {4e-3, 5e-3}) {
+    const auto first = static_cast<std::uint32_t>(facing.positions.size());
+    for (const Vec3& p : plate.positions) facing.positions.push_back({p.x, p.y, z});
+    for (const auto& [a, b, c] : plate.triangles) facing.triangles.push_back({first + a, first + c, first + b});
+  }
+  for (const double radius : {0.0, 1e-3}) {
+    const ContactSurface surface(facing, {ContactMaterial{}}, {}, radius);
+    const Vec3 start = press_and_stroke(surface, 0, {0.05, 0.05, 0}, {}).samples().front().position;
+    EXPECT_GT(start.z, radius + 0.5e-3);
+    EXPECT_LT(start.z, 4e-3 - radius);
+  }
+  const ContactSurface open(plate, {ContactMaterial{}}, {}, 1e-3);
+  EXPECT_NEAR(press_and_stroke(open, 0, {0.05, 0.05, 0}, {}).samples().front().position.z, 6e-3, 1e-12);
+}
+
 /// Counter-clockwise as seen from outside, on a plate that looks along +z and on one along -z.
 TEST(Stroke, CirclesTurnLeftWithTheirRadius) {
   StrokeOptions options;

@@ -24,7 +24,7 @@ struct StrokeOptions {
   double depth_m = 1e-3;  ///< Depth of the probe's lowest point below the surface.
   double speed_m_per_s = 0.1;
   double seconds = 2;        ///< Duration of the whole trajectory.
-  double approach_m = 5e-3;  ///< Height of that point above the surface at the start.
+  double approach_m = 5e-3;  ///< Height of that point above the surface at the start; less where a wall is near.
   double press_s = 0.25;     ///< Time from there to full depth.
 };
 
