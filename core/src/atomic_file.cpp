@@ -110,6 +110,11 @@ std::array<Slot, 64> g_slots;
 std::atomic<bool> g_is_ending{false};
 std::atomic<int> g_in_making{0};
 
+/// What a thread would see of files that remove_temporaries() took away is no error of it.
+void wait_if_ending() noexcept {
+  while (g_is_ending) ::pause();
+}
+
 /// While a temporary file is made and listed: no signal handler interrupts this thread, remove_temporaries() on another
 /// one waits, and after it none is made any more.
 class Making {
@@ -121,7 +126,7 @@ class Making {
     ++g_in_making;
     if (!g_is_ending) return;
     --g_in_making;
-    while (true) ::pause();  // The process is about to end.
+    wait_if_ending();
   }
   ~Making() {
     --g_in_making;
@@ -251,7 +256,11 @@ class Temporary {
   void rename(Durability durability) {
     // Forces the data to the disk, so that the rename can't overtake it.
     if (durability == Durability::synced && ::fsync(file_) != 0 && errno != EINVAL) fail(path_, errno);
-    if (::renameat(folder_, name_.c_str(), folder_, path_.filename().c_str()) != 0) fail(path_, errno);
+    if (::renameat(folder_, name_.c_str(), folder_, path_.filename().c_str()) != 0) {
+      const int reason = errno;
+      wait_if_ending();
+      fail(path_, reason);
+    }
     name_.clear();
   }
 

@@ -5,7 +5,7 @@
 # to the next one.
 if [[ $1 == bake && $2 == --job ]] && mv "$HOLD/wanted" "$HOLD/taken.$BASHPID" 2>/dev/null; then
   "$REAL_PAPILLA" "$@" &
-  sleep 0.1
+  sleep 0.01  # The shortest jobs take 25 ms on a fast machine.
   if kill -STOP $! 2>/dev/null && [[ $(sed 's/.*) \(.\).*/\1/' /proc/$!/stat) != Z ]]; then
     echo "$! ${SLURM_ARRAY_JOB_ID:-none} ${SLURM_ARRAY_TASK_ID:-none} $3" >"$HOLD/held.part"
     mv "$HOLD/held.part" "$HOLD/held"

@@ -38,8 +38,8 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 /// @throws IoError as write_atomically() would.
 void require_writable(const std::filesystem::path& path);
 
-/// Removes the temporary files of writes under way; may be called from a signal handler, after which
-/// the process must end.
+/// Removes the temporary files of writes under way; may be called from a signal handler, after which the process must
+/// end. Other threads begin no more writes and wait where what they wrote is gone.
 void remove_temporaries() noexcept;
 
 /// Makes a folder, and those above it that are missing. @returns whether it is new.
