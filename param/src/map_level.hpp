@@ -39,9 +39,8 @@ MapLevel whole_level(const ChartSurface& chart, std::vector<Vec2> uv);
 BorderBarrier barrier_of(const MapLevel& level);
 
 /// Moves one vertex after the other to lower the symmetric Dirichlet energy, every one at most once per sweep, until a
-/// sweep gains less than `tolerance` of the energy. No triangle turns over. Chunks of vertices with
-/// consecutive numbers are moved side by side, those with a neighbour in a later chunk after them: the same for any
-/// number of threads.
+/// sweep gains less than `tolerance` of the energy. No triangle turns over. Chunks of vertices with consecutive numbers
+/// are moved side by side, those with a neighbour in a later chunk after them: the same for any number of threads.
 /// @param guarded the border does not run into itself either.
 /// @return how many sweeps were made: one when the map was smooth already.
 int relax(MapLevel& level, int sweeps, double tolerance, bool guarded);
