@@ -43,13 +43,14 @@ void param_detail::check_best_options(const BestOptions& options, std::string_vi
 
 ChartMap param_detail::map_best(const ChartSurface& chart, const BestOptions& options, SharedProgress& mapped) {
   WorkProgress work(mapped, static_cast<double>(chart.triangles.size()));
-  MultilevelOptions multilevel = multilevel_options(options, area_of(chart));
+  const double area = area_of(chart);
+  MultilevelOptions multilevel = multilevel_options(options, area);
   multilevel.progress = [&](double fraction) { work.reach(fraction); };
   MultilevelMap solution = map_multilevel(to_unit(chart).surface, multilevel);
   ChartMap map{std::move(solution.uv), std::move(solution.failure), solution.stop, std::move(solution.trace)};
   map.given_up = solution.given_up;
   // From per unit of area to the sum over the chart.
-  for (TraceSample& sample : map.trace) sample.error *= area_of(chart);
+  for (TraceSample& sample : map.trace) sample.error *= area;
   work.reach(1);
   return map;
 }

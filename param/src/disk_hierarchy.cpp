@@ -66,8 +66,10 @@ class DiskHierarchy::Coarsener {
         next_[tail_[v]] = c;
       tail_[v] = c;
     }
-    for (Index v = 0; v < head_.size(); ++v)
+    for (Index v = 0; v < head_.size(); ++v) {
+      kept_[v].triangles = 0;
       if (head_[v] != k_none) vertices_.push_back(v);
+    }
   }
 
   void run(std::size_t enough) {
@@ -85,7 +87,7 @@ class DiskHierarchy::Coarsener {
   /// What surrounds a vertex, counter-clockwise; the border vertices first and last when it lies on the border.
   struct Ring {
     std::array<Index, k_most_triangles + 1> vertex;
-    std::array<Index, k_most_triangles> triangle;
+    std::array<Index, k_most_triangles> corner;       ///< At the vertex, of the triangles.
     std::array<Vec3, k_most_triangles + 1> position;  ///< Of the vertices; set by best_target().
     std::size_t triangles = 0, size = 0;
     bool closed = false;
@@ -93,7 +95,7 @@ class DiskHierarchy::Coarsener {
     std::size_t after(std::size_t i) const { return i + 1 == size ? 0 : i + 1; }
   };
 
-  /// A short one: its triangles' corners at the vertex; none: it is to be found again.
+  /// The corners of a short one; none: it is to be found again. Those of removed triangles may be among them.
   struct KeptRing {
     std::array<Index, k_most_kept> corner;
     std::uint8_t triangles;
@@ -115,8 +117,9 @@ class DiskHierarchy::Coarsener {
     std::vector<Candidate> candidates(vertices_.size());
     for_all([&](Index i, Index v) {
       Ring ring;
-      candidates[i] = find_ring(v, ring) ? best_target(v, ring, round) : Candidate{0, v, k_none};
-      if (candidates[i].target != k_none) keep(v, ring);
+      const bool found = ring_of(v, ring);
+      keep(v, ring, found);
+      candidates[i] = found ? best_target(v, ring, round) : Candidate{0, v, k_none};
     });
     std::erase_if(candidates, [](const Candidate& c) { return c.target == k_none; });
     const auto used = candidates.begin() +
@@ -130,7 +133,7 @@ class DiskHierarchy::Coarsener {
     for (auto c = candidates.begin(); c != used && left > enough; ++c) {
       // An unlocked vertex still has the ring it was judged by; the neighbours of a target that is locked have changed.
       if (locked_[c->vertex] == pass_) continue;
-      take_kept(c->vertex, ring);
+      ring_of(c->vertex, ring);
       if (locked_[c->target] == pass_ && !may_merge(ring, place_of(ring, c->target))) continue;
       remove(c->vertex, c->target, ring);
       --left;
@@ -173,15 +176,14 @@ class DiskHierarchy::Coarsener {
   }
 
   bool find_ring(Index v, Ring& ring) const {
-    std::array<Index, k_most_triangles> from, to, triangle;
+    std::array<Index, k_most_triangles> from, to, corner;
     std::size_t count = 0;
     bool small = true;
     each_corner(v, [&](Index c) {
       if (count == k_most_triangles) return small = false;
-      const Triangle& t = h_.triangles_[c / 3];
-      from[count] = t[(c % 3 + 1) % 3];
-      to[count] = t[(c % 3 + 2) % 3];
-      triangle[count++] = c / 3;
+      from[count] = after(c, 1);
+      to[count] = after(c, 2);
+      corner[count++] = c;
       return true;
     });
     if (!small || count == 0) return false;
@@ -190,7 +192,7 @@ class DiskHierarchy::Coarsener {
     const auto append_next = [&](const std::array<Index, k_most_triangles>& list, Index wanted) {
       for (std::size_t i = ordered; i < count; ++i)
         if (list[i] == wanted) {
-          std::swap(from[i], from[ordered]), std::swap(to[i], to[ordered]), std::swap(triangle[i], triangle[ordered]);
+          std::swap(from[i], from[ordered]), std::swap(to[i], to[ordered]), std::swap(corner[i], corner[ordered]);
           ++ordered;
           return true;
         }
@@ -209,41 +211,42 @@ class DiskHierarchy::Coarsener {
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t at = ring.closed ? (i + 1) % count : i < behind ? count - 1 - i : i - behind;
       ring.vertex[i] = from[at];
-      ring.triangle[i] = triangle[at];
+      ring.corner[i] = corner[at];
     }
     if (!ring.closed) ring.vertex[ring.size++] = to[ahead - 1];
-    return ring.closed ? ring.size >= 3 : ring.triangles >= 2;
+    return is_ring(ring);
   }
 
-  void keep(Index v, const Ring& ring) {
+  void keep(Index v, const Ring& ring, bool found) {
     KeptRing& kept = kept_[v];
     kept.triangles = 0;
-    if (ring.triangles > k_most_kept) return;
-    for (std::size_t i = 0; i < ring.triangles; ++i) {
-      const Triangle& t = h_.triangles_[ring.triangle[i]];
-      kept.corner[i] = 3 * ring.triangle[i] + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
-    }
+    if (!found || ring.triangles > k_most_kept) return;
+    std::copy_n(ring.corner.begin(), ring.triangles, kept.corner.begin());
     kept.triangles = static_cast<std::uint8_t>(ring.triangles);
     kept.closed = ring.closed;
   }
 
-  /// The ring of a vertex whose triangles are those it was judged by.
-  void take_kept(Index v, Ring& ring) const {
+  /// The kept ring without what was removed: others keep their order, unless the vertex was a target.
+  bool ring_of(Index v, Ring& ring) const {
     const KeptRing& kept = kept_[v];
-    if (kept.triangles == 0) {
-      find_ring(v, ring);
-      return;
-    }
-    ring.triangles = ring.size = kept.triangles;
+    if (kept.triangles == 0) return find_ring(v, ring);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kept.triangles; ++i)
+      if (h_.alive_[kept.corner[i] / 3]) ring.corner[count++] = kept.corner[i];
+    ring.triangles = ring.size = count;
     ring.closed = kept.closed;
-    for (std::size_t i = 0; i < ring.triangles; ++i) {
-      const Index c = kept.corner[i];
-      ring.triangle[i] = c / 3;
-      ring.vertex[i] = h_.triangles_[c / 3][(c % 3 + 1) % 3];
-    }
-    const Index last = kept.corner[ring.triangles - 1];
-    if (!ring.closed) ring.vertex[ring.size++] = h_.triangles_[last / 3][(last % 3 + 2) % 3];
+    const auto begin = ring.corner.begin(), end = begin + static_cast<std::ptrdiff_t>(count);
+    if (ring.closed && count > 0 && ring.corner[count - 1] != head_[v])
+      std::rotate(begin, std::find(begin, end, head_[v]) + 1, end);  // as find_ring() begins
+    for (std::size_t i = 0; i < count; ++i) ring.vertex[i] = after(ring.corner[i], 1);
+    if (!ring.closed && count > 0) ring.vertex[ring.size++] = after(ring.corner[count - 1], 2);
+    return is_ring(ring);
   }
+
+  static bool is_ring(const Ring& ring) { return ring.closed ? ring.size >= 3 : ring.triangles >= 2; }
+
+  /// The vertex that comes so many corners later in the corner's triangle.
+  Index after(Index corner, Index places) const { return h_.triangles_[corner / 3][(corner % 3 + places) % 3]; }
 
   /// The vertex may slide onto ring vertex `place`: the target has no edge yet to those it will be linked with.
   bool may_merge(const Ring& ring, std::size_t place) const {
@@ -259,8 +262,7 @@ class DiskHierarchy::Coarsener {
     std::size_t count = 0;
     bool may = true;
     each_corner(ring.vertex[place], [&](Index c) {
-      const Triangle& t = h_.triangles_[c / 3];
-      return may = ++count <= k_most_of_target && !is_linked(t[(c % 3 + 1) % 3]) && !is_linked(t[(c % 3 + 2) % 3]);
+      return may = ++count <= k_most_of_target && !is_linked(after(c, 1)) && !is_linked(after(c, 2));
     });
     return may;
   }
@@ -333,7 +335,7 @@ class DiskHierarchy::Coarsener {
   void remove(Index v, Index target, const Ring& ring) {
     Removal removal{v, target, static_cast<Index>(h_.around_.size()), static_cast<Index>(ring.triangles)};
     for (std::size_t i = 0; i < ring.triangles; ++i) {
-      const Index t = ring.triangle[i];
+      const Index t = ring.corner[i] / 3;
       h_.around_.push_back(t);
       Triangle& corners = h_.triangles_[t];
       if (std::find(corners.begin(), corners.end(), target) != corners.end())
@@ -347,6 +349,7 @@ class DiskHierarchy::Coarsener {
     next_[tail_[target]] = head_[v];
     tail_[target] = tail_[v];
     head_[v] = tail_[v] = k_none;
+    kept_[target].triangles = 0;
     h_.removals_.push_back(removal);
   }
 

@@ -31,6 +31,11 @@ constexpr std::size_t k_base_vertices = 24;
 constexpr std::size_t k_growth = 6;
 constexpr std::size_t k_guarded_growth = 3;
 
+/// Charts of so many vertices count their levels from the finest down: a step that is not a full one costs up to a
+/// third of the time. For small charts that is nothing, and where the border is short of room the seams chosen by their
+/// maps would be other ones, no better.
+constexpr std::size_t k_counted_down = 20'000;
+
 /// Vertices that one thread places at a time.
 constexpr std::size_t k_together = 256;
 
@@ -311,9 +316,9 @@ class Multilevel {
 
   /// By a level that is coarser than the chart.
   bool is_hopeless(const MapLevel& level) const {
-    const std::size_t vertices = level.vertices.size(), all = hierarchy_.removed_count() + hierarchy_.vertex_count();
+    const std::size_t vertices = level.vertices.size();
     if (!gives_up_ || hierarchy_.removed_count() == 0 || vertices < k_hinting_vertices) return false;
-    if (static_cast<double>(vertices) < k_telling_part * static_cast<double>(all)) return false;
+    if (static_cast<double>(vertices) < k_telling_part * static_cast<double>(all_vertices())) return false;
     const double most = vertices < k_telling_vertices ? k_hopeless_hint : k_hopeless;
     return mean_energy_ - 4 > most * (options_.give_up_energy - 4);
   }
@@ -425,14 +430,23 @@ class Multilevel {
     for (std::size_t i = 0; i < level.vertices.size(); ++i) uv_[level.vertices[i]] = level.uv[i];
   }
 
-  /// Inserts removed vertices until there are k_growth times as many, or all, or the next one has no valid place.
+  std::size_t all_vertices() const { return hierarchy_.removed_count() + hierarchy_.vertex_count(); }
+
+  /// How many the next level has. Large charts count from the finest level down, so that the dearest step is a full
+  /// one.
+  std::size_t next_vertices(std::size_t growth) const {
+    const std::size_t all = all_vertices(), present = hierarchy_.vertex_count();
+    if (all < k_counted_down) return 2 * all < 3 * growth * present ? all : growth * present;
+    std::size_t next = all;
+    while (2 * next > 3 * growth * present) next /= growth;
+    return next;
+  }
+
+  /// Inserts removed vertices until there are next_vertices(), or the next one has no valid place.
   bool refine(MapLevel& level) {
     const std::size_t before = hierarchy_.removed_count();
     const std::size_t growth = guarded_ ? k_guarded_growth : is_deep() ? k_deep_growth : k_growth;
-    const std::size_t enough = growth * hierarchy_.vertex_count();
-    const std::size_t all = hierarchy_.removed_count() + hierarchy_.vertex_count();
-    // Too few vertices for another level are added to this one.
-    const std::size_t leave = 2 * all < 3 * enough ? 0 : all - enough;
+    const std::size_t leave = all_vertices() - next_vertices(growth);
     LeastArea least = least_area(leave == 0);
     least.area /= static_cast<double>(growth);
     guard_.reset();

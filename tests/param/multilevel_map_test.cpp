@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "multilevel_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/formula_meshes.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace param_detail;
+
+/// How many vertices the levels of a map have, coarse to fine: progress is half their part of all, until the last one.
+std::vector<double> levels_of(const TriangleMesh& mesh) {
+  ChartSurface chart;
+  chart.positions = mesh.positions;
+  chart.triangles = mesh.triangles;
+  double length = 0;
+  for (const Vec3& p : mesh.positions) length = std::max(length, norm(p));
+  for (Vec3& p : chart.positions) p = (1 / length) * p;
+  const auto all = static_cast<double>(mesh.positions.size());
+  std::vector<double> levels;
+  MultilevelOptions options;
+  options.progress = [&](double fraction) {
+    if (fraction <= 0.5) levels.push_back(2 * fraction * all);
+  };
+  EXPECT_EQ(map_multilevel(chart, options).failure, "");
+  levels.push_back(all);
+  return levels;
+}
+
+TEST(MultilevelMap, LargeChartsEndWithFullSteps) {
+  // 22,321 vertices: with six times as many from the 24 coarsest on, the step before the last one would end at 5,184.
+  for (const TriangleMesh& mesh : {test::dashboard_mesh(220, 100), test::dashboard_mesh(374, 134)}) {
+    const std::vector<double> levels = levels_of(mesh);
+    ASSERT_GE(levels.size(), 5u);
+    for (std::size_t i = levels.size() - 1; i > 1; --i) EXPECT_NEAR(levels[i] / 6, levels[i - 1], 1);
+    EXPECT_GE(levels[1], 1.5 * levels[0]);
+    EXPECT_LE(levels[1], 9 * levels[0]);
+  }
+}
+
+TEST(MultilevelMap, SmallChartsBeginWithFullSteps) {
+  const std::vector<double> levels = levels_of(test::dashboard_mesh(70, 40));  // 2,911 vertices
+  ASSERT_EQ(levels.size(), 4u);
+  EXPECT_NEAR(levels[1], 6 * levels[0], 1e-6);
+  EXPECT_NEAR(levels[2], 6 * levels[1], 1e-6);
+}
+
+}  // namespace
+}  // namespace papilla
