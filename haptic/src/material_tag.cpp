@@ -497,7 +497,7 @@ Json tag_json(const MaterialTag& tag) {
   if (tag.provenance)
     json["provenance"] = {
         {"tool", tag.provenance->tool}, {"source", tag.provenance->source}, {"plan", tag.provenance->plan}};
-  if (!tag.other_json.empty()) json.update(Json::parse(tag.other_json));
+  if (!tag.other_json.empty()) json.update(Json::parse(std::string_view(tag.other_json)));
   return json;
 }
 

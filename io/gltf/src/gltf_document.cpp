@@ -8,7 +8,6 @@
 #include <cstring>
 #include <initializer_list>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "draco_mesh.hpp"
+#include "json_text.hpp"
 #include "meshopt_view.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
@@ -24,8 +24,6 @@
 
 namespace papilla::gltf {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 enum class Kind { index, whole, number, text, array, object, component_type, accessor_type, camera_type, stride };
 
@@ -562,7 +560,7 @@ Document load_document(const std::filesystem::path& path) {
   std::string edited;
   if (first_length || !document.empty_buffers.empty() || !detached.empty() || renamed || dropped || !buffers.empty() ||
       !images.empty())
-    text = edited = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text = edited = text_of(json);
 
   tinygltf::TinyGLTF loader = make_loader();
   std::string error, warning;

@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "json_text.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/referenced_file.hpp"
 
 namespace papilla::gltf {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 EncodedImage read_image(const tinygltf::Image& source, std::size_t number, AccessorReader& reader, Scene& scene) {
   EncodedImage image;
@@ -97,7 +95,7 @@ class MaterialReader {
   }
 
   void read_transform(const std::string& extensions, const std::string& where, TextureReference& result) const {
-    const auto json = Json::parse(extensions, nullptr, false);
+    const auto json = json_of(extensions);
     const auto found = json.is_object() ? json.find("KHR_texture_transform") : json.end();
     if (found == json.end() || !found->is_object()) return;
     UvTransform transform;
@@ -121,7 +119,7 @@ constexpr std::array k_image_extensions = {"EXT_texture_webp", "EXT_texture_avif
 
 /// Takes the pictures of other formats out of the texture's extensions.
 void take_other_images(std::size_t image_count, const std::string& where, Texture& texture) {
-  Json extensions = Json::parse(texture.extensions_json, nullptr, false);
+  Json extensions = json_of(texture.extensions_json);
   if (!extensions.is_object()) return;
   for (const char* name : k_image_extensions) {
     const auto found = extensions.find(name);
@@ -134,7 +132,7 @@ void take_other_images(std::size_t image_count, const std::string& where, Textur
     }
     extensions.erase(name);
   }
-  texture.extensions_json = extensions.empty() ? "" : extensions.dump(-1, ' ', false, Json::error_handler_t::replace);
+  texture.extensions_json = extensions.empty() ? "" : text_of(extensions);
   if (!texture.image && !texture.others.empty()) texture.image = texture.others.front().image;
 }
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "gltf_document.hpp"
+#include "json_text.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
@@ -25,7 +25,7 @@ namespace {
 
 using gltf::AccessorReader;
 using gltf::Document;
-using Json = nlohmann::ordered_json;
+using gltf::Json, gltf::json_of, gltf::text_of;
 
 constexpr const char* k_xmp = "KHR_xmp_json_ld";
 
@@ -207,9 +207,9 @@ void drop_parts(Scene& scene, const std::vector<bool>& dropped) {
 }
 
 void drop_coverages(Node& node) {
-  Json extras = Json::parse(node.extras_json, nullptr, false);
+  Json extras = json_of(node.extras_json);
   if (!extras.is_object() || extras.erase("MSFT_screencoverage") == 0) return;
-  node.extras_json = extras.empty() ? "" : extras.dump();
+  node.extras_json = extras.empty() ? "" : text_of(extras);
 }
 
 /// The parts that flagged nodes show and no others do.
@@ -398,7 +398,7 @@ void read_asset(const Document& document, Scene& scene) {
   const tinygltf::Asset& source = document.model.asset;
   AssetInfo& asset = scene.asset;
   asset.copyright = source.copyright;
-  Json extras = Json::parse(source.extras_json_string, nullptr, false);
+  Json extras = json_of(source.extras_json_string);
   if (extras.is_object()) {
     if (const auto list = extras.find("generators"); list != extras.end() && list->is_array()) {
       for (const Json& generator : *list)
@@ -406,16 +406,16 @@ void read_asset(const Document& document, Scene& scene) {
       extras.erase("generators");
     }
     for (const char* own : k_own_asset_extras) extras.erase(own);
-    if (!extras.empty()) asset.extras_json = extras.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (!extras.empty()) asset.extras_json = text_of(extras);
   } else if (!source.extras_json_string.empty()) {
     scene.losses.push_back("extras of the asset, which are no object");
   }
   if (!source.generator.empty() && (asset.generators.empty() || asset.generators.back() != source.generator))
     asset.generators.push_back(source.generator);
   const auto member = [](const std::string& extensions, const char* name) {
-    const Json json = Json::parse(extensions, nullptr, false);
+    const Json json = json_of(extensions);
     const auto found = json.is_object() ? json.find(name) : json.end();
-    return found == json.end() ? "" : found->dump(-1, ' ', false, Json::error_handler_t::replace);
+    return found == json.end() ? "" : text_of(*found);
   };
   asset.xmp_packets_json = member(document.model.extensions_json_string, k_xmp);
   asset.xmp_reference_json = member(source.extensions_json_string, k_xmp);

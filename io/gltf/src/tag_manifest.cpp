@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "json_text.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
@@ -15,11 +15,9 @@
 namespace papilla {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json, gltf::json_of, gltf::text_of;
 
 constexpr int k_version = 1;
-
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 double to_micrometre(double metres) { return std::round(1e6 * metres) / 1e6; }
 
@@ -33,7 +31,7 @@ double rounded(double value) {
 Json tag_json(MaterialTag tag) {
   for (PlacedPicture* picture : pictures_of(tag))
     if (picture->is_embedded()) picture->uri.clear();
-  return Json::parse(to_json(tag));
+  return json_of(to_json(tag));
 }
 
 /// What a node repeats: the constants.
@@ -42,7 +40,7 @@ Json constants_json(const MaterialTag& tag) {
   constants.height.reset(), constants.maps.reset(), constants.roughness.reset(), constants.force_model.reset();
   constants.symmetry.reset(), constants.provenance.reset();
   constants.other_json.clear();
-  return Json::parse(to_json(constants));
+  return json_of(to_json(constants));
 }
 
 Json surface_json(const TagManifest::Surface& surface) {
@@ -107,7 +105,7 @@ void add_node_tags(const Json& json, const std::string& node, TagManifest& manif
 /// Takes a member out of extras; null when there is none.
 Json take_member(std::string& extras_json, const char* name) {
   if (extras_json.find(name) == std::string::npos) return nullptr;
-  Json extras = Json::parse(extras_json, nullptr, false);
+  Json extras = json_of(extras_json);
   if (!extras.is_object() || !extras.contains(name)) return nullptr;
   Json member = std::move(extras[name]);
   extras.erase(name);
@@ -201,12 +199,12 @@ void add_tag_manifest(const Scene& scene, std::string& asset_extras_json, std::v
   const TagManifest manifest = tag_manifest(scene);
   if (manifest.materials.empty()) return;
   const auto add = [](std::string& extras, const char* name, Json member) {
-    Json json = extras.empty() ? Json::object() : Json::parse(extras, nullptr, false);
+    Json json = extras.empty() ? Json::object() : json_of(extras);
     if (!json.is_object()) return;  // Extras may be anything; those of others stay as they are.
     json[name] = std::move(member);
     extras = text_of(json);
   };
-  add(asset_extras_json, k_tag_manifest, Json::parse(to_json(manifest)));
+  add(asset_extras_json, k_tag_manifest, json_of(to_json(manifest)));
   std::map<std::uint32_t, std::map<std::uint32_t, double>> areas;
   for (const Instance& instance : instances(scene)) {
     const Part& part = scene.parts[instance.part];
