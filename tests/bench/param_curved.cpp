@@ -33,7 +33,7 @@ void report_curved(Peers& peers, BenchReport& report) {
     if (slim) {
       theirs = fmt::format("{:.4f}{}", slim->report.symmetric_dirichlet.mean, slim_valid ? "" : " (not valid)");
       ratio = fmt::format("{:.4f}", energy / slim->report.symmetric_dirichlet.mean);
-      share = fmt::format("1/{:.1f}", slim->map.cpu_seconds / seconds);
+      if (seconds > 0) share = fmt::format("1/{:.1f}", slim->map.cpu_seconds / seconds);
     }
     if (slim_valid) {
       ++with_peer;
