@@ -381,7 +381,7 @@ class Multilevel {
         energy_of(level) <= k_smooth * mean_energy_ * level.area)
       return;
     const int sweeps = guarded_ ? k_guarded_sweeps : k_relax_sweeps;
-    const bool well_relaxed = last && (!factored || !level.slivers.empty());
+    const bool well_relaxed = last && (!factored || !level.slivers.empty() || counts_down());
     const double relax_tolerance = well_relaxed ? 0.1 * options_.tolerance : k_relax_tolerance;
     relax(level, last && !factored ? k_fine_sweeps : sweeps, relax_tolerance, guarded_);
     if (last) restore_slivers(level, guarded_);
@@ -432,11 +432,13 @@ class Multilevel {
 
   std::size_t all_vertices() const { return hierarchy_.removed_count() + hierarchy_.vertex_count(); }
 
-  /// How many the next level has. Large charts count from the finest level down, so that the dearest step is a full
-  /// one.
+  /// Whether levels are counted from the finest one on, so that the dearest step is a full one.
+  bool counts_down() const { return all_vertices() >= k_counted_down; }
+
+  /// How many the next level has.
   std::size_t next_vertices(std::size_t growth) const {
     const std::size_t all = all_vertices(), present = hierarchy_.vertex_count();
-    if (all < k_counted_down) return 2 * all < 3 * growth * present ? all : growth * present;
+    if (!counts_down()) return 2 * all < 3 * growth * present ? all : growth * present;
     std::size_t next = all;
     while (2 * next > 3 * growth * present) next /= growth;
     return next;
