@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -13,14 +14,20 @@ namespace {
 
 using namespace param_detail;
 
-/// How many vertices the levels of a map have, coarse to fine: progress is half their part of all, until the last one.
-std::vector<double> levels_of(const TriangleMesh& mesh) {
+/// The whole mesh, with coordinates of at most 1.
+ChartSurface chart_of(const TriangleMesh& mesh) {
   ChartSurface chart;
   chart.positions = mesh.positions;
   chart.triangles = mesh.triangles;
   double length = 0;
   for (const Vec3& p : mesh.positions) length = std::max(length, norm(p));
   for (Vec3& p : chart.positions) p = (1 / length) * p;
+  return chart;
+}
+
+/// How many vertices the levels of a map have, coarse to fine: progress is half their part of all, until the last one.
+std::vector<double> levels_of(const TriangleMesh& mesh) {
+  const ChartSurface chart = chart_of(mesh);
   const auto all = static_cast<double>(mesh.positions.size());
   std::vector<double> levels;
   MultilevelOptions options;
@@ -48,6 +55,19 @@ TEST(MultilevelMap, SmallChartsBeginWithFullSteps) {
   ASSERT_EQ(levels.size(), 4u);
   EXPECT_NEAR(levels[1], 6 * levels[0], 1e-6);
   EXPECT_NEAR(levels[2], 6 * levels[1], 1e-6);
+}
+
+TEST(MultilevelMap, LargeChartsComeNearTheirMinimum) {
+  // Bumps of 11 cells across, on 21,091 vertices.
+  const ChartSurface chart = chart_of(test::grid_mesh(160, 130, [](double s, double t) {
+    const double wave = std::sin(98 * s) * std::cos(70 * t) + 0.3 * std::sin(37.8 * (s + t));
+    return Vec3{1000 * s, 700 * t, 30 * wave};
+  }));
+  MultilevelOptions exact;
+  exact.tolerance = 1e-7;
+  const double least = map_multilevel(chart, exact).trace.back().error;
+  EXPECT_NEAR(least, 4.71664, 1e-4);
+  EXPECT_LT(map_multilevel(chart, {}).trace.back().error - least, 2.5e-4);
 }
 
 }  // namespace
