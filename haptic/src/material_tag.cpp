@@ -497,7 +497,8 @@ Json tag_json(const MaterialTag& tag) {
   if (tag.provenance)
     json["provenance"] = {
         {"tool", tag.provenance->tool}, {"source", tag.provenance->source}, {"plan", tag.provenance->plan}};
-  if (!tag.other_json.empty()) json.update(Json::parse(std::string_view(tag.other_json)));
+  if (!tag.other_json.empty())
+    json.update(Json::parse(std::string_view(tag.other_json)));  // A view as for the others: one parser.
   return json;
 }
 

@@ -32,8 +32,8 @@ constexpr std::size_t k_growth = 6;
 constexpr std::size_t k_guarded_growth = 3;
 
 /// Charts of so many vertices count their levels from the finest down: a step that is not a full one costs up to a
-/// third of the time. For small charts that is nothing, and where the border is short of room the seams chosen by their
-/// maps would be other ones, no better.
+/// quarter of the time. For small charts that is nothing, and where the border is short of room the seams chosen by
+/// their maps would be other ones, no better.
 constexpr std::size_t k_counted_down = 20'000;
 
 /// Vertices that one thread places at a time.

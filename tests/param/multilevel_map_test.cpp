@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "disk_chart.hpp"
 #include "support/formula_meshes.hpp"
 
 namespace papilla {
@@ -14,15 +14,12 @@ namespace {
 
 using namespace param_detail;
 
-/// The whole mesh, with coordinates of at most 1.
+/// The whole mesh, of area 1.
 ChartSurface chart_of(const TriangleMesh& mesh) {
   ChartSurface chart;
   chart.positions = mesh.positions;
   chart.triangles = mesh.triangles;
-  double length = 0;
-  for (const Vec3& p : mesh.positions) length = std::max(length, norm(p));
-  for (Vec3& p : chart.positions) p = (1 / length) * p;
-  return chart;
+  return to_unit(chart).surface;
 }
 
 /// How many vertices the levels of a map have, coarse to fine: progress is half their part of all, until the last one.

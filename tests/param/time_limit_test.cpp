@@ -53,7 +53,7 @@ const std::map<std::string, Method>& methods() {
 
 /// A wavy sheet, whose map takes longer than the deadlines below.
 TriangleMesh large_sheet() {
-  return test::grid_mesh(300, 300, [](double s, double t) {
+  return test::grid_mesh(400, 400, [](double s, double t) {
     return Vec3{s, t, 0.2 * std::sin(9 * s) * std::sin(11 * t)};
   });
 }
@@ -81,7 +81,7 @@ TEST(TimeLimit, EndsTheMapThatIsMadeInstead) {
   const TriangleMesh mesh = large_sheet();
   param_detail::DriverOptions driver;
   driver.function = "test";
-  driver.deadline = Deadline(0.2);
+  driver.deadline = Deadline(0.1);
   const auto fail = [](const param_detail::ChartSurface&) {
     param_detail::ChartMap map;
     map.failure = "it is none";

@@ -9,8 +9,8 @@ namespace papilla::gltf {
 
 using Json = nlohmann::ordered_json;
 
-/// The text's value; is_discarded() when it is no JSON. All texts come this way: each kind of iterator has a parser of
-/// its own, 16 kB of the player.
+/// The text's value; is_discarded() when it is no JSON. Texts are parsed as views everywhere: each kind of iterator has
+/// a parser of its own, 16 kB of the player.
 inline Json json_of(std::string_view text) { return Json::parse(text, nullptr, false); }
 
 /// In one line, with what is no UTF-8 replaced.
